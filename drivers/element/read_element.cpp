@@ -1,0 +1,690 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "read_element.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../input/reader.hpp"
+#include "read_material.hpp"
+#include "read_results.hpp"
+#include "sweep.hpp"
+#include "with_law.hpp"
+
+namespace grainlaw::element {
+
+namespace fs = std::filesystem;
+using input::Node;
+using input::Reader;
+
+namespace {
+
+/// What was filled in because the file did not say it: path and text, for as_run.yaml.
+struct Defaults {
+  std::vector<std::pair<std::string, std::string>> list;
+  void add(std::string path, std::string text) { list.emplace_back(std::move(path), std::move(text)); }
+};
+
+struct KindName {
+  Kind kind;
+  std::string name;
+};
+const std::vector<KindName> kinds{{Kind::simple_shear, "simple_shear"},
+                                  {Kind::annular_shear_cell, "annular_shear_cell"},
+                                  {Kind::triaxial, "triaxial"},
+                                  {Kind::pure_rotation, "pure_rotation"},
+                                  {Kind::point, "point"}};
+
+/// What the law of a material needs, known without building it.
+struct LawNeeds {
+  bool void_ratio = false, stress = false, forms = false;
+};
+
+LawNeeds needs_of(const std::string& law) {
+  LawNeeds needs;
+  with_recipe(law, [&]<class R>(R) {
+    needs.void_ratio = uses_void_ratio<typename R::Law>();
+    needs.stress = StressInState<typename R::Law>;
+    needs.forms = std::tuple_size_v<typename R::Forms> > 1;
+  });
+  return needs;
+}
+
+/// The law's name before the rest of the material is read (void ratio and k_v depend on it).
+std::string law_of(const Reader& material, const fs::path& beside) {
+  if (const Node* law = material.node().find("law"); law && law->is_scalar()) return law->text;
+  if (const Node* use = material.node().find("use"); use && use->is_scalar()) {
+    if (const auto file = find_material(use->text, beside)) {
+      const Node tree = input::read_yaml(*file);
+      if (const Node* law = tree.find("law"); law && law->is_scalar()) return law->text;
+    }
+  }
+  return "";
+}
+
+class TestReader {
+ public:
+  TestReader(ElementTest& t, Reader r, std::string law_name, Defaults& d)
+      : test(t), reader(std::move(r)), law(std::move(law_name)), needs(needs_of(law)), defaults(d) {}
+
+  void read_void_ratio() {
+    // in the annular cell and at a point it stands beside the kind, elsewhere under `initial`
+    const bool beside = test.kind == Kind::annular_shear_cell || test.kind == Kind::point;
+    std::optional<double> value;
+    const auto look = [&](Reader& r) {
+      if (const auto e = r.maybe_number("void_ratio", "-", {.low = 0, .high = 20, .low_open = true})) {
+        if (value) r.inert("void_ratio", "the void ratio is already given");
+        value = e;
+      }
+      if (const auto C =
+              r.maybe_number("solid_fraction", "-", {.low = 0, .high = 1, .low_open = true, .high_open = true})) {
+        if (value) r.inert("solid_fraction", "the void ratio is already given");
+        value = 1 / *C - 1;
+      }
+    };
+    if (beside) look(reader);
+    if (reader.has("initial") && reader.node().find("initial")->is_map()) {
+      Reader initial = reader.map("initial");
+      look(initial);
+    }
+    if (!value && needs.void_ratio) {
+      const Node* initial = reader.node().find("initial");
+      input::fail(initial && !beside ? initial->mark : reader.node().mark,
+                  fmt::format("{} is missing: law '{}' depends on the void ratio",
+                              beside ? "test.void_ratio" : "test.initial.void_ratio", law),
+                  "give void_ratio [-] or solid_fraction [-], for example 'void_ratio: 0.845'");
+    }
+    if (value && !needs.void_ratio && test.kind != Kind::annular_shear_cell) {
+      Reader place =
+          beside && (reader.has("void_ratio") || reader.has("solid_fraction")) ? reader : reader.map("initial");
+      place.inert(place.has("void_ratio") ? "void_ratio" : "solid_fraction",
+                  fmt::format("law '{}' does not depend on the density", law));
+    }
+    test.void_ratio = value;
+  }
+
+  std::optional<double> read_k_v() {
+    if (test.kind != Kind::annular_shear_cell) return std::nullopt;
+    const auto k_v = reader.maybe_number("k_v", "kg/m", input::not_negative);
+    if (k_v && law != "bagnold" && law != "hypoplastic_bagnold")
+      reader.inert("k_v", fmt::format("law '{}' has no collisional part", law));
+    return k_v;
+  }
+
+  void read(const Reader& root) {
+    switch (test.kind) {
+      case Kind::simple_shear:
+        simple_shear();
+        break;
+      case Kind::annular_shear_cell:
+        annular_shear_cell();
+        break;
+      case Kind::triaxial:
+        triaxial();
+        break;
+      case Kind::pure_rotation:
+        pure_rotation();
+        break;
+      case Kind::point:
+        point();
+        break;
+    }
+    if (const Node* specimen = reader.find("specimen")) {
+      if (!specimen->is_scalar())
+        input::fail(specimen->mark, "test.specimen must be a name", "for example 'specimen: TMU1'");
+      test.notes.push_back("specimen " + specimen->text);
+    }
+    (void)root;
+  }
+
+  Reader& raw() { return reader; }
+
+ private:
+  SymTensor<double> read_stress(Reader map) {
+    SymTensor<double> s{};
+    const auto component = [&](const char* key, double& value, bool normal) {
+      if (normal) {
+        value = map.number(key, "Pa");
+      } else {
+        value = map.number_or(key, "Pa", 0);
+      }
+    };
+    component("xx", s.xx, true), component("yy", s.yy, true), component("zz", s.zz, true);
+    component("yz", s.yz, false), component("xz", s.xz, false), component("xy", s.xy, false);
+    map.finish();
+    return s;
+  }
+
+  /// `pressure` or `stress` of one map; a law without history starts from a compaction instead.
+  void read_stress_of(Reader& map) {
+    const std::string history =
+        fmt::format("law '{}' has no stress history: its stress follows from compaction and rate", law);
+    if (!needs.stress) {
+      for (const char* key : {"pressure", "stress"}) {
+        if (map.has(key) && test.kind != Kind::annular_shear_cell) map.inert(key, history);
+        map.known({key});
+      }
+      test.compaction = map.number_or("compaction", "-", 0, {.low = -1, .high = 1e3, .low_open = true});
+      return;
+    }
+    if (map.has("compaction"))
+      map.inert("compaction", fmt::format("law '{}' carries its stress: give pressure or stress", law));
+    if (map.has("stress")) {
+      if (map.has("pressure")) map.inert("pressure", "stress gives every component");
+      test.initial_stress = read_stress(map.map("stress"));
+    } else {
+      const double p = map.number("pressure", "Pa", law == "elastic" ? input::Range{} : input::positive);
+      test.initial_stress = isotropic(-p);
+    }
+  }
+
+  void read_initial() {
+    if (!reader.has("initial") && !needs.stress) {
+      reader.known({"initial"});
+      return;
+    }
+    const Node& node = reader.need(
+        "initial", needs.stress
+                       ? "the state before loading, for example 'initial: {pressure: 100 kPa, void_ratio: 0.8}'"
+                       : "the state before loading, for example 'initial: {compaction: 0}'");
+    Reader initial(node, reader.path("initial"));
+    initial.find("void_ratio"), initial.find("solid_fraction");  // read before
+    read_stress_of(initial);
+    initial.finish();
+    check_start(node.mark);
+  }
+
+  /// The law must be able to live with the initial state.
+  void check_start(const input::Mark& mark) {
+    if (!needs.stress) return;
+    Material probe = test.material;
+    with_law(probe, test.void_ratio.value_or(0), StateForm::stress, [&](const auto& chosen, const auto&) {
+      using L = std::decay_t<decltype(chosen)>;
+      if constexpr (StressInState<L>) {
+        const Flow<double> flow{{}, 0};
+        const auto reasons = chosen.admit(flow, chosen.start(flow, test.initial_stress)).reasons;
+        if ((reasons & tension) != 0) {
+          input::fail(mark, "the initial stress has a principal component that is not compressive",
+                      fmt::format("law '{}' needs compressive principal stresses; stresses are tension positive, so "
+                                  "compression is negative",
+                                  law));
+        }
+        if ((reasons & pressure_floor) != 0)
+          input::fail(mark, "the initial pressure is below p_floor of the material",
+                      "raise the pressure or lower p_floor");
+        if ((reasons & beyond_validity) != 0) {
+          test.warnings.push_back(
+              fmt::format("the initial state lies outside the range of law '{}' ({}): its density function is clamped",
+                          law, L::valid));
+        }
+      }
+    });
+  }
+
+  RateProgramme read_rate(const char* key, const char* unit, double factor, const char* what) {
+    const Node& node = reader.need(key, what);
+    if (!node.is_sequence()) {
+      const double value = input::quantity(node, reader.path(key), unit) * factor;
+      if (value == 0)
+        input::fail(node.mark, fmt::format("{} is zero: nothing would happen", reader.path(key)),
+                    "give a rate different from zero");
+      return RateProgramme::constant(value);
+    }
+    RateProgramme programme;
+    std::size_t i = 0;
+    for (const Node& item : node.items) {
+      Reader piece(item, fmt::format("{}.{}", reader.path(key), i++));
+      programme.pieces.push_back({piece.number("from", unit) * factor, piece.number("to", unit) * factor,
+                                  piece.number("over", "s", input::positive)});
+      piece.finish();
+    }
+    if (programme.pieces.empty())
+      input::fail(node.mark, fmt::format("{} is an empty list", reader.path(key)), "give at least {from, to, over}");
+    if (programme.largest() == 0)
+      input::fail(node.mark, fmt::format("{} is zero throughout: nothing would happen", reader.path(key)),
+                  "give a rate different from zero");
+    return programme;
+  }
+
+  void simple_shear() {
+    const std::string hold = reader.word_or("hold", {"volume", "normal_stress"}, "volume");
+    if (!reader.has("hold")) defaults.add("test.hold", "volume");
+    read_initial();
+    test.control.rate = read_rate(
+        "shear_rate", "1/s", 1, "dv_x/dz, for example 'shear_rate: 0.01 1/s' or [{from: 0 1/s, to: 1 1/s, over: 2 s}]");
+    test.control.pattern.xz = 1;
+    test.columns.shear_strain = test.columns.shear_rate = true;
+    if (hold == "normal_stress") {
+      double normal = -test.initial_stress.zz;
+      if (needs.stress) {
+        normal = reader.number_or("normal_stress", "Pa", normal, input::positive);
+        if (std::abs(normal + test.initial_stress.zz) > 1e-9 * normal) {
+          input::fail(reader.mark("normal_stress"),
+                      fmt::format("test.normal_stress is {} Pa but the initial vertical stress is {} Pa: the test "
+                                  "would start with a jump",
+                                  normal, -test.initial_stress.zz),
+                      "make them equal, or leave normal_stress out: it is held at its initial value");
+        }
+      } else {
+        normal = reader.number("normal_stress", "Pa", input::positive);
+      }
+      test.control.held = {2};
+      test.control.held_stress.zz = -normal;
+      test.columns.volumetric = true;
+    } else {
+      if (reader.has("normal_stress")) reader.inert("normal_stress", "hold: volume keeps the volume, not the stress");
+      test.columns.excess_pore_pressure = needs.stress;
+    }
+    test.main_quantity = "shear_stress";
+  }
+
+  void annular_shear_cell() {
+    if (reader.has("shear_rate")) reader.inert("shear_rate", "the cell is driven by kappa, with dv_x/dz = 2 kappa");
+    read_initial();
+    test.control.rate =
+        read_rate("kappa", "1/s", 2, "half of dv_x/dz, for example 'kappa: [{from: 10 1/s, to: 500 1/s, over: 20 s}]'");
+    test.control.pattern.xz = 1;
+    test.columns.shear_strain = test.columns.shear_rate = true;
+    test.main_quantity = "shear_stress";
+  }
+
+  void triaxial() {
+    const std::string drainage = reader.word("drainage", {"drained", "undrained"});
+    const std::string mode = reader.word_or("mode", {"compression", "extension"}, "compression");
+    if (!reader.has("mode")) defaults.add("test.mode", "compression");
+    read_initial();
+    test.axial_sign = mode == "compression" ? -1 : 1;
+    const double rate = reader.number("axial_rate", "1/s", input::positive);
+    test.control.rate = RateProgramme::constant(rate);
+    test.control.pattern.zz = test.axial_sign;
+    test.columns.axial = true;
+    if (drainage == "undrained") {
+      test.control.pattern.xx = test.control.pattern.yy = -0.5 * test.axial_sign;
+      test.columns.excess_pore_pressure = needs.stress;
+    } else {
+      if (!needs.stress) {
+        input::fail(
+            reader.mark("drainage"),
+            fmt::format("a drained test holds the cell pressure, and law '{}' has no stress history to hold it with",
+                        law),
+            "use drainage: undrained, or a law that carries its stress");
+      }
+      test.control.held = {0, 1};
+      test.control.held_stress = test.initial_stress;
+    }
+    const auto& s = test.initial_stress;
+    if (s.yz != 0 || s.xz != 0 || s.xy != 0 || s.xx != s.yy) {
+      input::fail(reader.mark("initial"), "the initial stress is not axisymmetric",
+                  "a triaxial test has stress xx = yy and no shear components");
+    }
+    test.main_quantity = "q";
+  }
+
+  void pure_rotation() {
+    read_initial();
+    const double spin = reader.number("spin", "rad/s");
+    if (spin == 0)
+      input::fail(reader.mark("spin"), "test.spin is zero: nothing would turn", "for example 'spin: 1 rad/s'");
+    const double revolutions = reader.number("revolutions", "-", {.low = 0, .high = 1e7, .low_open = true});
+    test.control.rate = RateProgramme::constant(spin);
+    test.control.pattern.xz = 1;
+    test.control.pattern.zx = -1;
+    test.columns.spin = true;
+    test.until.time = 2 * std::numbers::pi * revolutions / std::abs(spin);
+    test.main_quantity = "q";
+  }
+
+  void point() {
+    const Node& node =
+        reader.need("L", "velocity gradient by rows, for example 'L: [[0, 0, 1], [0, 0, 0], [0, 0, 0]] 1/s'");
+    const auto wrong = [&](const Node& at) {
+      input::fail(at.mark, "test.L is not a 3 by 3 matrix",
+                  "three rows of three rates [1/s]: L: [[0, 0, 1], [0, 0, 0], [0, 0, 0]] 1/s");
+    };
+    if (!node.is_sequence() || node.items.size() != 3) wrong(node);
+    std::array<double, 9> l{};
+    for (std::size_t r = 0; r < 3; ++r) {
+      if (!node.items[r].is_sequence() || node.items[r].items.size() != 3) wrong(node.items[r]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        l[3 * r + c] = input::quantity(node.items[r].items[c], fmt::format("test.L[{}][{}]", r + 1, c + 1), "1/s");
+      }
+    }
+    test.control.pattern = {l[0], l[1], l[2], l[3], l[4], l[5], l[6], l[7], l[8]};
+    test.control.rate = RateProgramme::constant(1);
+    if (reader.has("density")) {
+      reader.inert("density",
+                   fmt::format("law '{}' has no density of its own: give stress, void_ratio or compaction", law));
+    }
+    if (reader.has("initial")) {
+      read_initial();
+    } else {
+      read_stress_of(reader);
+      check_start(reader.node().mark);
+    }
+  }
+
+  ElementTest& test;
+  Reader reader;
+  std::string law;
+  LawNeeds needs;
+  Defaults& defaults;
+};
+
+void read_until(ElementTest& test, Reader& reader) {
+  const auto& rate = test.control.rate;
+  const bool programme = rate.duration() > 0;
+  if (test.kind == Kind::pure_rotation) {
+    if (reader.has("until")) reader.inert("until", "revolutions says when the test ends");
+    return;
+  }
+  double end = std::numeric_limits<double>::infinity();
+  if (!reader.has("until")) {
+    if (!programme) {
+      reader.need("until", test.kind == Kind::triaxial
+                               ? "when the test ends, for example 'until: {axial_strain: 0.2}'"
+                               : "when the test ends, for example 'until: {shear_strain: 1.0}'");
+    }
+    reader.known({"until"});
+    end = rate.duration();
+  } else {
+    Reader until = reader.map("until");
+    const bool triaxial = test.kind == Kind::triaxial;
+    if (const auto t = until.maybe_number("time", "s", input::positive)) end = std::min(end, *t);
+    for (const char* key : {"shear_strain", "axial_strain"}) {
+      const bool mine = (std::string_view(key) == "axial_strain") == triaxial;
+      if (!mine && until.has(key))
+        until.inert(key, triaxial ? "a triaxial test counts axial_strain" : "a shear test counts shear_strain");
+      if (!mine) continue;
+      if (const auto strain = until.maybe_number(key, "-", {.low = 0, .high = 1e9, .low_open = true})) {
+        const double t = rate.time_of_path(*strain);
+        if (!std::isfinite(t))
+          input::fail(until.mark(key),
+                      fmt::format("until.{} = {} is never reached: the rate ends at zero", key, *strain),
+                      "lengthen the programme");
+        end = std::min(end, t);
+      }
+    }
+    test.until.pressure_ratio =
+        until.maybe_number("pressure_ratio", "-", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+    if (until.has("cycles")) until.inert("cycles", "this test is monotonic");
+    until.finish();
+    if (programme && !std::isfinite(end)) end = rate.duration();
+    if (!std::isfinite(end)) {
+      input::fail(until.node().mark, "test.until has no strain or time: the test might never end",
+                  "add 'shear_strain', 'axial_strain' or 'time [s]' as a last resort");
+    }
+  }
+  test.until.time = end;
+}
+
+/// Rows at equal distances along the strain path, the first at the start and the last at the end.
+void read_output(ElementTest& test, const Node* node, Defaults& defaults) {
+  const auto& rate = test.control.rate;
+  const double end = test.until.time, length = rate.path(end);
+  double every = 0, every_time = 0;
+  std::int64_t rows = 1000;
+  if (node) {
+    Reader output(*node, "output");
+    if (auto spacing = output.maybe_map("every")) {
+      if (output.has("rows")) output.inert("rows", "every gives the distance between rows");
+      const bool triaxial = test.kind == Kind::triaxial, rotation = test.kind == Kind::pure_rotation;
+      const char* own = triaxial ? "axial_strain" : rotation ? "revolutions" : "shear_strain";
+      for (const char* key : {"shear_strain", "axial_strain", "revolutions"}) {
+        if (std::string_view(key) != own && spacing->has(key))
+          spacing->inert(key, fmt::format("this test counts {}", own));
+      }
+      if (const auto strain = spacing->maybe_number(own, "-", {.low = 0, .high = 1e9, .low_open = true})) {
+        every = rotation ? *strain * 2 * std::numbers::pi : *strain;
+        if (spacing->has("time")) spacing->inert("time", fmt::format("{} gives the distance between rows", own));
+      } else {
+        every_time = spacing->number("time", "s", input::positive);
+      }
+      spacing->finish();
+    } else {
+      rows = output.integer_or("rows", rows, {.low = 1, .high = 1e7});
+    }
+    output.finish();
+  }
+  if (every == 0 && every_time == 0) {
+    every = length / double(rows);
+    if (!node || !node->find("rows")) defaults.add("output.rows", fmt::format("{}", rows));
+  }
+  const double total = every_time > 0 ? end : length;
+  double step = every_time > 0 ? every_time : every;
+  if (info(test.integration.method).fixed_step && test.integration.fixed_step > 0 && rate.duration() == 0) {
+    // rows of a fixed-step method lie on its steps
+    const double unit = every_time > 0 ? test.integration.fixed_step : test.integration.fixed_step * rate.largest();
+    step = unit * std::max(1.0, std::round(step / unit));
+  }
+  const double count = total / step;
+  if (count > 1e7) {
+    input::fail(node ? node->mark : input::Mark{}, fmt::format("the output would have {:.3g} rows", count),
+                "at most ten million rows: make `every` larger");
+  }
+  const auto whole = std::int64_t(std::floor(count * (1 + 1e-12)));
+  for (std::int64_t i = 0; i <= whole; ++i) {
+    const double at = double(i) * step;
+    const double t = i == 0 ? 0 : every_time > 0 ? at : rate.time_of_path(at);
+    if (t < end * (1 - 1e-12)) test.row_times.push_back(t);
+  }
+  test.row_times.push_back(end);
+}
+
+StateForm form_for(const ElementTest& test, const LawNeeds& needs) {
+  const bool compressive = trace(test.initial_stress) < 0;
+  return needs.forms && test.control.held.empty() && compressive ? StateForm::logarithmic : StateForm::stress;
+}
+
+/// Explicit Dormand-Prince while stability costs less than implicit algebra, BDF beyond: with eigenvalues near
+/// -1000 |D| an explicit method needs some 600 evaluations per unit of strain, BDF about 1500 altogether.
+constexpr double longest_explicit_path = 10;
+
+void read_integrator(ElementTest& test, const Node* node, Defaults& defaults) {
+  Integration& integration = test.integration;
+  const LawNeeds needs = needs_of(test.material.law);
+  const double strain = test.control.rate.path(test.until.time) * norm(symmetric(test.control.pattern));
+  const Node empty{.kind = Node::Kind::map, .text = {}, .quoted = false, .mark = {}, .items = {}, .entries = {}};
+  Reader reader(node ? *node : empty, "integrator");
+  std::vector<std::string> names{"auto"};
+  for (const auto& m : methods()) names.push_back(m.name);
+  const std::string name = reader.word_or("method", names, "auto");
+  if (!reader.has("method")) defaults.add("integrator.method", "auto");
+  if (name == "auto") {
+    integration.method = strain > longest_explicit_path ? Method::bdf : Method::dp54;
+    integration.chosen_automatically = true;
+  } else {
+    integration.method =
+        std::find_if(methods().begin(), methods().end(), [&](const auto& m) { return m.name == name; })->method;
+  }
+
+  const std::string form = reader.word_or("state", {"auto", "stress", "logarithmic"}, "auto");
+  if (!reader.has("state")) defaults.add("integrator.state", "auto");
+  if (form == "logarithmic") {
+    if (!needs.forms) reader.inert("state", fmt::format("law '{}' has no logarithmic state", test.material.law));
+    if (!test.control.held.empty()) reader.inert("state", "a test that holds a stress needs the stress as its state");
+    if (!(trace(test.initial_stress) < 0))
+      reader.inert("state", "the logarithmic state needs a compressive initial stress");
+  }
+  integration.form = form == "auto"     ? form_for(test, needs)
+                     : form == "stress" ? StateForm::stress
+                                        : StateForm::logarithmic;
+
+  if (info(integration.method).fixed_step) {
+    for (const char* key : {"rtol", "atol"}) {
+      if (reader.has(key)) reader.inert(key, fmt::format("{} has a fixed step and no error control", name));
+    }
+    const Node& step = reader.need("step", "a strain increment [-] or a time [s], for example 'step: 1e-4'");
+    if (step.is_scalar() && input::unit_typed(step).empty()) {
+      integration.fixed_step =
+          input::quantity(step, "integrator.step", "-", input::positive) / test.control.rate.largest();
+    } else {
+      integration.fixed_step = input::quantity(step, "integrator.step", "s", input::positive);
+    }
+    if (test.until.time / integration.fixed_step > 1e10)
+      input::fail(step.mark, "more than ten billion steps", "make the step larger or the test shorter");
+  } else {
+    if (reader.has("step")) reader.inert("step", fmt::format("{} chooses its own steps: give rtol", name));
+    integration.rtol = reader.number_or("rtol", "-", 1e-9, {.low = 1e-14, .high = 0.1});
+    if (!reader.has("rtol")) defaults.add("integrator.rtol", "1e-09");
+    if (reader.has("atol")) {
+      integration.atol = reader.number("atol", "Pa", input::not_negative);
+    } else {
+      // round-off of the initial stress; the logarithmic state needs none
+      integration.atol = integration.form == StateForm::logarithmic ? 0 : 1e-14 * norm(test.initial_stress);
+    }
+  }
+  integration.error_estimate = reader.flag_or("error_estimate", true);
+  if (!reader.has("error_estimate")) defaults.add("integrator.error_estimate", "true");
+  reader.finish();
+}
+
+ElementTest read_run(const SingleRun& single, const fs::path& beside, Defaults& defaults) {
+  ElementTest test;
+  test.run = single.name;
+  Reader root(single.tree, "");
+  for (const char* key : {"title", "source", "sweep", "compare", "expect"}) root.find(key);
+  const Node& material_node =
+      root.need("material", "the law and its parameters, for example 'material: {use: peng2016_table1}'");
+  const Node& test_node = root.need("test", "what is done to the point, for example 'test: {kind: simple_shear, ...}'");
+
+  Reader raw_test(test_node, "test");
+  std::vector<std::string> names;
+  for (const auto& k : kinds) names.push_back(k.name);
+  test.kind_name = raw_test.word("kind", names);
+  test.kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == test.kind_name; })->kind;
+
+  const Reader material(material_node, "material");
+  const std::string law = law_of(material, beside);
+  TestReader reader(test, raw_test, law, defaults);
+  // an unknown law is reported by the material, before anything is asked of it
+  const bool known_law = with_recipe(law, [](auto) {});
+  if (known_law) reader.read_void_ratio();
+  const auto k_v = known_law ? reader.read_k_v() : std::nullopt;
+  test.material = read_material(material, beside, test.void_ratio, k_v);
+  reader.read(root);
+
+  const Node* output = root.find("output");
+  const Node* integrator = root.find("integrator");
+  if (test.kind == Kind::point) {
+    reader.raw().finish();
+    if (output) root.inert("output", "a point test has one row");
+    if (integrator) root.inert("integrator", "a point test integrates nothing");
+    test.integration.form = StateForm::stress;
+    test.row_times = {0};
+  } else {
+    read_until(test, reader.raw());
+    reader.raw().finish();
+    read_integrator(test, integrator, defaults);
+    read_output(test, output, defaults);
+  }
+  root.finish();
+  if (test.void_ratio) {
+    for (const auto& p : test.material.parameters) {
+      if (p.name == "e_min" && *test.void_ratio < p.value) {
+        test.warnings.push_back(
+            fmt::format("void ratio {:.4g} is below e_min = {:.4g}: the law is clamped to its densest state",
+                        *test.void_ratio, p.value));
+      }
+    }
+  }
+  for (const auto& w : test.material.warnings) test.warnings.push_back(w);
+  return test;
+}
+
+Node* at_path(Node& root, const std::string& path, bool& list) {
+  Node* at = &root;
+  std::size_t from = 0;
+  while (from <= path.size()) {
+    const auto dot = std::min(path.find('.', from), path.size());
+    const std::string key = path.substr(from, dot - from);
+    Node* next = at->find(key);
+    if (!next) {
+      if (!at->is_map()) {
+        list = true;
+        return nullptr;
+      }
+      Node fresh;
+      fresh.kind = dot == path.size() ? Node::Kind::null : Node::Kind::map;
+      at->entries.push_back({key, {}, fresh});
+      next = &at->entries.back().value;
+    }
+    at = next;
+    from = dot + 1;
+  }
+  return at;
+}
+
+/// The file as understood: the material spelled out, defaults filled in. Lists stay lists, so the runs keep their
+/// names.
+Node understood(const Node& file, const ElementTest& first, const Defaults& defaults) {
+  Node tree = file;
+  Node* material = tree.find("material");
+  const auto has_list = [&](const std::string& key) {
+    const Node* node = material->find(key);
+    return node && node->is_sequence();
+  };
+  if (const Node* use = material->find("use"); use && !use->is_sequence() && !has_list("law")) {
+    std::erase_if(material->entries, [](const auto& e) { return e.key == "use"; });
+    if (!material->find("law"))
+      material->entries.insert(material->entries.begin(), {"law", {}, input::scalar(first.material.law)});
+    const bool calibrated = material->find("calibrate") != nullptr;
+    const Node* test = tree.find("test");
+    for (const auto& p : first.material.parameters) {
+      const bool from_test = p.name == "k_v" && test->find("k_v");
+      const bool by_calibration = calibrated && p.source.rfind("calibrated", 0) == 0;
+      if (material->find(p.name) || from_test || by_calibration) continue;
+      const std::string unit = p.unit == "-" ? "" : " " + p.unit;
+      material->entries.push_back({p.name, {}, input::scalar(fmt::format("{}{}", p.value, unit))});
+    }
+  }
+  for (const auto& [path, text] : defaults.list) {
+    bool blocked = false;
+    Node* node = at_path(tree, path, blocked);
+    if (node && node->is_null()) *node = input::scalar(text);
+  }
+  return tree;
+}
+
+}  // namespace
+
+ElementFile read_element(const fs::path& path, const std::vector<std::string>& sets) {
+  Node tree = input::read_yaml(path);
+  for (const auto& assignment : sets) input::apply_set(tree, assignment);
+  if (!tree.is_map())
+    input::fail(tree.mark, "this is not an element test", "expected a map with title, material, test ...");
+  const fs::path beside = fs::absolute(path).parent_path();
+
+  ElementFile file;
+  file.path = path;
+  Defaults defaults;
+  const auto runs = expand(tree);
+  for (const auto& single : runs) {
+    Defaults own;
+    file.tests.push_back(read_run(single, beside, own));
+    if (defaults.list.empty()) defaults = own;
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    read_results(runs[i], file.tests[i], beside, runs, file);
+  }
+  Reader root(tree, "");
+  file.title = root.text_or("title", path.stem().string());
+  file.source = root.text_or("source", "");
+  file.kind = file.tests.front().kind_name;
+  for (const auto& test : file.tests) {
+    for (const auto& w : test.warnings) {
+      const std::string line =
+          file.tests.size() == 1 || test.material.warnings.end() !=
+                                        std::find(test.material.warnings.begin(), test.material.warnings.end(), w)
+              ? w
+              : fmt::format("{}: {}", test.run, w);
+      if (std::find(file.warnings.begin(), file.warnings.end(), line) == file.warnings.end())
+        file.warnings.push_back(line);
+    }
+  }
+  file.as_run = understood(tree, file.tests.front(), defaults);
+  return file;
+}
+
+}  // namespace grainlaw::element

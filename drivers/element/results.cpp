@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "classify.hpp"
+#include "csv.hpp"
+
+namespace grainlaw::element {
+
+namespace {
+
+/// y at x by linear interpolation along the path, at the first crossing; NaN outside.
+double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    if (xs[i] == x) return ys[i];
+    if (i > 0 && (xs[i - 1] - x) * (xs[i] - x) < 0)
+      return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);
+  }
+  // the last bit of a sum of steps must not hide the end of the path
+  const double slack = 1e-12 * std::max(std::abs(x), 1e-300);
+  if (!xs.empty() && std::abs(xs.back() - x) <= slack) return ys.back();
+  if (!xs.empty() && std::abs(xs.front() - x) <= slack) return ys.front();
+  return std::nan("");
+}
+
+}  // namespace
+
+ExpectationResult evaluate(const Expectation& e, const RunRecord& record) {
+  ExpectationResult result{e, std::nan(""), std::nan(""), false};
+  const int c = record.column(e.column);
+  if (c < 0 || record.rows() == 0) return result;
+  switch (e.at) {
+    case Expectation::At::end:
+      result.got = record.at(record.rows() - 1, std::size_t(c));
+      break;
+    case Expectation::At::peak:
+      if (!record.peak.row.empty()) result.got = record.peak.row[std::size_t(c)];
+      break;
+    case Expectation::At::value:
+      result.got = interpolate(record.series(e.at_column), record.series(e.column), e.at_value);
+      break;
+  }
+  const double off = result.got - e.value;
+  result.difference = e.relative ? off / std::abs(e.value) : off;
+  if (e.relative && e.value == 0) result.difference = off == 0 ? 0 : std::copysign(unbounded, off);
+  result.met = std::abs(result.difference) <= e.within;
+  return result;
+}
+
+ComparisonResult evaluate(const Comparison& c, const RunRecord& record) {
+  ComparisonResult result;
+  result.comparison = c;
+  const Csv csv = read_csv(c.file);
+  const auto& xs = csv.columns[std::size_t(csv.find(c.x.data))];
+  const auto& ys = csv.columns[std::size_t(csv.find(c.y.data))];
+  const int where = c.where_column.empty() ? -1 : csv.find(c.where_column);
+  const auto run_x = record.series(c.x.run), run_y = record.series(c.y.run);
+  if (const int column = record.column(c.y.run); column >= 0) result.y_unit = record.columns[std::size_t(column)].unit;
+  double squares = 0;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    // written decimals of a key column: equal to round-off of a decimal
+    if (where >= 0 && std::abs(csv.columns[std::size_t(where)][i] - c.where_value) > 1e-9 * std::abs(c.where_value))
+      continue;
+    const double x = xs[i] * c.x.factor + c.x.offset, y = ys[i] * c.y.factor + c.y.offset;
+    result.x.push_back(x);
+    result.y.push_back(y);
+    result.largest = std::max(result.largest, std::abs(y));
+    sizes.push_back(std::abs(y));
+    const double model = interpolate(run_x, run_y, x);
+    if (std::isnan(model)) continue;
+    ++result.used;
+    squares += (model - y) * (model - y);
+  }
+  result.rms = result.used > 0 ? std::sqrt(squares / double(result.used)) : std::nan("");
+  if (sizes.size() > 2) {
+    result.response = classify(sizes);
+    result.peak = sizes[peak_index(sizes)];
+    result.residual = sizes.back();
+  }
+  return result;
+}
+
+std::string readable(double value, const std::string& unit) {
+  if (unit == "Pa" && std::abs(value) >= 1e3) return fmt::format("{:.4g} kPa", value / 1e3);
+  if (unit == "-" || unit.empty()) return fmt::format("{:.4g}", value);
+  return fmt::format("{:.4g} {}", value, unit);
+}
+
+ResultRow summarise(const ElementTest& test, const RunRecord& record,
+                    const std::vector<ExpectationResult>& expectations,
+                    const std::vector<ComparisonResult>& comparisons) {
+  ResultRow row;
+  row.run = record.name;
+  const int c = record.column(test.main_quantity);
+  if (record.status != Status::done) {
+    row.response = record.status == Status::failed ? "FAILED" : "interrupted";
+  }
+  if (c < 0 || record.rows() == 0) {
+    row.reference = "-";
+    return row;
+  }
+  const std::string unit = record.columns[std::size_t(c)].unit;
+  const double residual = record.at(record.rows() - 1, std::size_t(c));
+  row.peak = readable(record.peak.value, unit);
+  row.residual = readable(residual, unit);
+  const bool classified = test.kind == Kind::simple_shear || test.kind == Kind::triaxial;
+  if (row.response.empty()) row.response = classified ? record.response : "-";
+  for (const auto& m : comparisons) {
+    if (m.comparison.run != record.name || m.comparison.y.run != test.main_quantity || m.used == 0) continue;
+    if (m.comparison.role == "model") continue;
+    row.reference = fmt::format("{}: peak {}, end {}, {}", m.comparison.label, readable(m.peak, unit),
+                                readable(m.residual, unit), m.response);
+    row.difference =
+        fmt::format("rms {:.0f} %{}{}", 100 * m.rms / m.largest, m.response == record.response ? "" : ", class differs",
+                    m.comparison.role == "fitted"        ? ", e0 fitted"
+                    : m.comparison.role == "calibration" ? ", calibration"
+                                                         : "");
+    return row;
+  }
+  for (const auto& e : expectations) {
+    const auto& x = e.expectation;
+    if (x.run != record.name || x.column != test.main_quantity) continue;
+    const std::string where = x.at == Expectation::At::end    ? "residual"
+                              : x.at == Expectation::At::peak ? "peak"
+                                                              : fmt::format("at {} {:.4g}", x.at_column, x.at_value);
+    row.reference = fmt::format("{} {}", where, readable(x.value, unit));
+    row.difference = x.relative ? (std::abs(e.difference) < 5e-5 ? fmt::format("{:+.1e}", e.difference)
+                                                                 : fmt::format("{:+.2f} %", 100 * e.difference))
+                                : readable(e.difference, unit);
+    return row;
+  }
+  row.reference = "-";
+  return row;
+}
+
+}  // namespace grainlaw::element

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "classify.hpp"
+#include "with_law.hpp"
+
+namespace grainlaw::element {
+
+int RunRecord::column(std::string_view wanted) const {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == wanted) return int(i);
+  }
+  return -1;
+}
+
+std::vector<double> RunRecord::series(std::string_view wanted) const {
+  const int c = column(wanted);
+  std::vector<double> list;
+  if (c < 0) return list;
+  list.reserve(rows());
+  for (std::size_t r = 0; r < rows(); ++r) list.push_back(at(r, std::size_t(c)));
+  return list;
+}
+
+AnyPoint make_point(const ElementTest& test) {
+  AnyPoint point;
+  with_law(test.material, test.void_ratio.value_or(0), test.integration.form, [&](const auto& law, std::string form) {
+    point = Point<std::decay_t<decltype(law)>>::erase(law, test, std::move(form));
+  });
+  return point;
+}
+
+void evaluate_point(const ElementTest& test, std::vector<Column>& columns, std::vector<double>& values) {
+  const AnyPoint point = make_point(test);
+  columns = point.columns;
+  values.resize(columns.size());
+  point.observe(0, point.initial.data(), values.data());
+  std::vector<double> rate(point.initial.size());
+  if (test.integration.form != StateForm::logarithmic && rate.size() == 6) {  // the state is the stress
+    point.ode.derivative(point.ode.self, 0, point.initial.data(), rate.data());
+    static constexpr std::array names{"xx", "yy", "zz", "yz", "xz", "xy"};
+    for (std::size_t i = 0; i < 6; ++i) {
+      columns.push_back({fmt::format("rate_{}", names[i]), "Pa/s"});
+      values.push_back(rate[i]);
+    }
+  }
+}
+
+namespace {
+
+/// A clock that costs some 20 ns to read, so that the solver can be timed row by row, without the output.
+double seconds() {
+  timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+IntegratorSettings settings_for(const ElementTest& test) {
+  // The first step spans a strain of 1e-5: small against every strain scale of a granular law, so that no first trial
+  // can jump over its initial response.
+  const Tensor<double>& l = test.control.pattern;
+  const double rate =
+      test.control.rate.largest() * std::sqrt(l.xx * l.xx + l.yy * l.yy + l.zz * l.zz + l.xz * l.xz + l.zx * l.zx);
+  return {test.integration.method, test.integration.fixed_step, rate > 0 ? 1e-5 / rate : 0};
+}
+
+/// Walks an integrator over the rows, restarting at every kink of the programme.
+class Walk {
+ public:
+  Walk(const ElementTest& test, const AnyPoint& point)
+      : integrator(point.ode, settings_for(test)),
+        y(point.initial),
+        kinks(test.control.rate.kinks(test.until.time)),
+        t_end(test.until.time) {
+    begin(0);
+  }
+  bool to(double t) {
+    while (next_kink < kinks.size() && kinks[next_kink] <= t) {
+      const double kink = kinks[next_kink++];
+      if (!integrator.advance(kink, y.data())) return false;
+      begin(kink);
+    }
+    return integrator.advance(t, y.data());
+  }
+  void restart_from(double t, const std::vector<double>& state) {
+    y = state;
+    next_kink = std::size_t(std::upper_bound(kinks.begin(), kinks.end(), t) - kinks.begin());
+    begin(t);
+  }
+
+  Integrator integrator;
+  std::vector<double> y;
+
+ private:
+  void begin(double t) {
+    const double stop = next_kink < kinks.size() ? kinks[next_kink] : t_end;
+    integrator.start(t, y.data(), stop);
+  }
+  std::vector<double> kinks;
+  double t_end;
+  std::size_t next_kink = 0;
+};
+
+/// The instant in [t0, t1] where g changes sign (Illinois; falls back to bisection by construction).
+template <class G>
+double root(double t0, double t1, double g0, double g1, const G& g) {
+  for (int i = 0; i < 100 && t1 - t0 > 1e-14 * std::max(std::abs(t0), std::abs(t1)); ++i) {
+    double t = (t0 * g1 - t1 * g0) / (g1 - g0);
+    if (!(t > t0 && t < t1) || i % 8 == 7) t = 0.5 * (t0 + t1);
+    const double value = g(t);
+    if (value == 0) return t;
+    if ((value > 0) == (g1 > 0)) {
+      t1 = t;
+      g1 = value;
+      g0 *= 0.5;
+    } else {
+      t0 = t;
+      g0 = value;
+      g1 *= 0.5;
+    }
+    if (std::abs(t1 - t0) < 1e-13 * std::abs(t1)) break;
+  }
+  return 0.5 * (t0 + t1);
+}
+
+struct Path {
+  std::vector<double> times;
+  std::vector<std::vector<double>> states;
+};
+
+/// Time derivative of a column, along the direction that the law gives.
+double column_rate(const AnyPoint& point, std::size_t column, double t, const std::vector<double>& y, double dt) {
+  std::vector<double> dydt(y.size()), trial(y), row(point.columns.size());
+  if (!y.empty() && point.ode.derivative(point.ode.self, t, y.data(), dydt.data()) != 0) return std::nan("");
+  double values[2];
+  for (const int side : {0, 1}) {
+    const double h = side == 0 ? -dt : dt;
+    for (std::size_t i = 0; i < y.size(); ++i) trial[i] = y[i] + h * dydt[i];
+    point.observe(t + h, trial.data(), row.data());
+    values[side] = row[column];
+  }
+  return (values[1] - values[0]) / (2 * dt);
+}
+
+/// The extremum of a column between two stored rows around row i.
+Extremum locate(const ElementTest& test, const AnyPoint& point, const Path& path, std::size_t column, std::size_t i,
+                bool maximum) {
+  Extremum e{point.columns[column].name, point.columns[column].unit, maximum, 0,
+             std::vector<double>(point.columns.size())};
+  const double t0 = path.times[i - 1], t1 = path.times[i + 1];
+  const double dt = 1e-5 * (t1 - t0);
+  Walk walk(test, point);
+  const auto state_at = [&](double t) {
+    walk.restart_from(t0, path.states[i - 1]);
+    walk.to(t);
+    return walk.y;
+  };
+  const auto slope = [&](double t) { return column_rate(point, column, t, state_at(t), dt); };
+  const double g0 = column_rate(point, column, t0, path.states[i - 1], dt), g1 = slope(t1);
+  double t = path.times[i];
+  if (g0 * g1 < 0) t = root(t0, t1, g0, g1, slope);
+  const auto y = state_at(t);
+  point.observe(t, y.data(), e.row.data());
+  e.value = e.row[column];
+  return e;
+}
+
+std::vector<Extremum> located(const ElementTest& test, const AnyPoint& point, const Path& path, std::size_t column,
+                              const std::vector<double>& v) {
+  std::vector<Extremum> list;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+    const bool top = v[i] > v[i - 1] && v[i] >= v[i + 1], bottom = v[i] < v[i - 1] && v[i] <= v[i + 1];
+    if (top || bottom) list.push_back(locate(test, point, path, column, i, top));
+  }
+  return list;
+}
+
+std::string state_in_words(const RunRecord& record) {
+  if (record.rows() == 0) return "no row was reached";
+  std::string text;
+  const std::size_t last = record.rows() - 1;
+  for (const char* name :
+       {"time", "shear_strain", "axial_strain", "pressure", "q", "shear_stress", "void_ratio", "ln_trace"}) {
+    const int c = record.column(name);
+    if (c < 0) continue;
+    text += fmt::format("{}{} = {:.6g}{}{}", text.empty() ? "" : ", ", name, record.at(last, std::size_t(c)),
+                        record.columns[std::size_t(c)].unit == "-" ? "" : " ",
+                        record.columns[std::size_t(c)].unit == "-" ? "" : record.columns[std::size_t(c)].unit);
+  }
+  return text;
+}
+
+std::string cause_in_words(const ElementTest& test, const Integrator& integrator) {
+  if (info(test.integration.method).fixed_step) {
+    return fmt::format(
+        "the fixed step of {:.3g} s is beyond the stability limit of this law: make it smaller or use an "
+        "error-controlled method",
+        test.integration.fixed_step);
+  }
+  if (!test.control.held.empty()) {
+    return "the prescribed stress cannot be held any more (loss of controllability): the skeleton has softened or lost "
+           "its contacts; control the strain instead";
+  }
+  return integrator.failure();
+}
+
+/// Stress at every row for another accuracy, for the estimate of the global error.
+std::vector<SymTensor<double>> companion(ElementTest test, const std::vector<double>& times) {
+  test.integration.rtol *= 10;
+  test.integration.atol *= 10;
+  test.integration.fixed_step *= 2;
+  const AnyPoint point = make_point(test);
+  Walk walk(test, point);
+  std::vector<SymTensor<double>> list;
+  for (const double t : times) {
+    if (!walk.to(t)) break;
+    list.push_back(point.stress(t, walk.y.data()));
+  }
+  return list;
+}
+
+}  // namespace
+
+RunRecord run(const ElementTest& test, const Hooks& hooks) {
+  RunRecord record;
+  record.name = test.run;
+  if (test.kind == Kind::point) {
+    evaluate_point(test, record.columns, record.values);
+    record.method = "none";
+    record.state_form = "stress";
+    if (hooks.row) hooks.row(record, record.values.data());
+    for (const double v : record.values) {
+      if (std::isnan(v)) record.status = Status::failed, record.failure = "the law gives no finite value at this point";
+    }
+    return record;
+  }
+
+  const AnyPoint point = make_point(test);
+  record.columns = point.columns;
+  record.method = info(test.integration.method).name;
+  record.state_form = point.state_form;
+  record.values.reserve(test.row_times.size() * point.columns.size());
+  const std::size_t width = point.columns.size();
+  const auto pressure_at = [&](double t, const std::vector<double>& y) { return pressure(point.stress(t, y.data())); };
+  Path path;
+  std::vector<SymTensor<double>> stresses;
+
+  double solving = 0;
+  Walk walk(test, point);
+  const double p0 = pressure_at(0, walk.y);
+  bool stop = false;
+  for (std::size_t r = 0; r < test.row_times.size() && !stop; ++r) {
+    double t = test.row_times[r];
+    const double from = seconds();
+    const bool reached = walk.to(t);
+    solving += seconds() - from;
+    if (!reached) {
+      record.status = Status::failed;
+      t = walk.integrator.t_reached();
+    } else if (test.until.pressure_ratio && r > 0) {
+      const auto excess = [&](const std::vector<double>& y, double at) {
+        return pressure_at(at, y) - *test.until.pressure_ratio * p0;
+      };
+      const double before = excess(path.states.back(), path.times.back()), after = excess(walk.y, t);
+      if (before > 0 && after <= 0) {
+        const double t0 = path.times.back();
+        const auto before_it = path.states.back();
+        t = root(t0, t, before, after, [&](double at) {
+          walk.restart_from(t0, before_it);
+          walk.to(at);
+          return excess(walk.y, at);
+        });
+        walk.restart_from(t0, before_it);
+        walk.to(t);
+        stop = true;
+      }
+    }
+    if (reached) {
+      record.values.resize(record.values.size() + width);
+      double* row = record.values.data() + record.values.size() - width;
+      point.observe(t, walk.y.data(), row);
+      const unsigned why = point.reasons(t, walk.y.data());
+      for (std::size_t bit = 0; bit < record.rows_flagged.size(); ++bit) record.rows_flagged[bit] += (why >> bit) & 1;
+      bool finite = true;
+      for (std::size_t c = 0; c < width; ++c) finite = finite && !std::isnan(row[c]);
+      if (!finite || (why & not_finite) != 0) {
+        record.values.resize(record.values.size() - width);
+        record.status = Status::failed;
+      } else {
+        path.times.push_back(t);
+        path.states.push_back(walk.y);
+        if (test.integration.error_estimate) stresses.push_back(point.stress(t, walk.y.data()));
+        if (hooks.row) hooks.row(record, row);
+      }
+    }
+    if (record.status == Status::failed) {
+      record.failure = fmt::format("run '{}' stopped at t = {:.6g} s; last good state: {}; likely cause: {}",
+                                   record.name, t, state_in_words(record), cause_in_words(test, walk.integrator));
+      break;
+    }
+    if (hooks.interrupted && hooks.interrupted()) {
+      record.status = Status::interrupted;
+      record.failure = fmt::format("run '{}' was interrupted at t = {:.6g} s", record.name, t);
+      break;
+    }
+    if (hooks.progress && r % 16 == 0)
+      hooks.progress(double(r + 1) / double(test.row_times.size()), walk.integrator.last_step());
+  }
+  record.solver_ms = 1e3 * solving;
+  record.counters = walk.integrator.counters();
+  record.admitted = point.admitted();
+
+  if (test.integration.error_estimate && record.status == Status::done && !stresses.empty()) {
+    const auto other = companion(test, path.times);
+    double largest = 0, worst = other.size() < stresses.size() ? 1 : 0;
+    for (const auto& s : stresses) largest = std::max(largest, norm(s));
+    for (std::size_t i = 0; i < std::min(other.size(), stresses.size()); ++i)
+      worst = std::max(worst, norm(stresses[i] - other[i]) / largest);
+    record.global_error_estimate = largest > 0 ? worst : 0;
+  }
+
+  const int main_column = record.column(test.main_quantity);
+  if (main_column >= 0 && record.rows() > 0) {
+    auto v = record.series(test.main_quantity);
+    for (auto& x : v) x = std::abs(x);
+    const std::size_t top = peak_index(v);
+    const auto c = std::size_t(main_column);
+    if (top > 0 && top + 1 < v.size()) {
+      record.peak = locate(test, point, path, c, top, record.at(top, c) > 0);
+    } else {
+      record.peak = {record.columns[c].name, record.columns[c].unit, true, record.at(top, c),
+                     std::vector<double>(record.values.begin() + std::ptrdiff_t(top * width),
+                                         record.values.begin() + std::ptrdiff_t((top + 1) * width))};
+    }
+    record.response = classify(v);
+  }
+  return record;
+}
+
+std::vector<Extremum> extrema(const ElementTest& test, const std::string& column) {
+  const AnyPoint point = make_point(test);
+  Walk walk(test, point);
+  Path path;
+  std::vector<double> v, row(point.columns.size());
+  std::size_t index = 0;
+  while (index < point.columns.size() && point.columns[index].name != column) ++index;
+  if (index == point.columns.size()) return {};
+  for (const double t : test.row_times) {
+    if (!walk.to(t)) break;
+    point.observe(t, walk.y.data(), row.data());
+    path.times.push_back(t);
+    path.states.push_back(walk.y);
+    v.push_back(row[index]);
+  }
+  return located(test, point, path, index, v);
+}
+
+}  // namespace grainlaw::element
