@@ -19,7 +19,8 @@ struct Advanced {
 ///     d(state)/dt = law.rate(flow(t), state),   flow(t) = old + (new - old) t/dt
 ///
 /// Source   Bogacki & Shampine, Appl. Math. Lett. 2 (1989) 321.
-/// Inputs   flows at both ends, dt >= 0 [s] (0 is legal and returns the state), tolerance of a sub-step relative to
+/// Inputs   flows at both ends, dt >= 0 [s] (0 is legal and returns the state; NaN or a
+///          negative one is flagged not_finite), tolerance of a sub-step relative to
 ///          the stress, or to 1 for dimensionless states.
 /// Output   the admitted state.   Fails   too_many_steps after max_steps sub-steps: the state reached so far.
 template <Law<double> L>
@@ -43,7 +44,10 @@ Advanced<typename L::template State<double>> advance(const L& law, const Flow<do
       return std::bit_cast<Numbers>(law.rate(flow_at(x), std::bit_cast<State>(y)));
     };
     Numbers y = std::bit_cast<Numbers>(start);
-    if (!(dt > 0)) return {start, unsigned(law.admit(new_flow, start).reasons), 0};
+    if (!(dt > 0)) {
+      const unsigned wrong = dt == 0 ? 0u : unsigned(not_finite);
+      return {start, unsigned(law.admit(new_flow, start).reasons) | wrong, 0};
+    }
     double x = 0, h = 1;
     Numbers k1 = rate(0, y);
     for (int step = 0; step < max_steps; ++step) {

@@ -54,8 +54,8 @@ struct Bagnold {
   }
   template <class R>
   constexpr Admitted<State<R>, R> admit(const Flow<R>& flow, const State<R>& state) const noexcept {
-    const R size = trace(flow.L);
-    return {state, real::flag<R>(size - size != R(0), not_finite)};
+    const R size = size_of(flow.L);
+    return {state, real::flag<R>(!real::is_finite(size), not_finite)};
   }
   template <class R>
   constexpr R wave_speed(const Flow<R>& flow, const State<R>& /*state*/, const R& density) const noexcept {

@@ -46,7 +46,7 @@ struct Elastic {
   template <class R>
   constexpr Admitted<State<R>, R> admit(const Flow<R>& /*flow*/, const State<R>& state) const noexcept {
     const R size = norm(state.sigma);
-    return {state, real::flag<R>(size - size != R(0), not_finite)};
+    return {state, real::flag<R>(!real::is_finite(size), not_finite)};
   }
   template <class R>
   constexpr R wave_speed(const Flow<R>& /*flow*/, const State<R>& state, const R& density) const noexcept {

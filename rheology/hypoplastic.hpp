@@ -110,10 +110,10 @@ struct Hypoplastic {
       // -sigma is positive definite exactly when its three invariants are positive: no eigenvalues needed
       const R J2 = Constant(0.5) * contract(s, s), J3 = determinant(s);
       const mask_t<R> low = p < p_floor.as<R>();
-      const mask_t<R> pulls = !(Constant(3) * p * p > J2) || !(p * (p * p - J2) > J3);
+      const mask_t<R> pulls = p < R(0) || !(Constant(3) * p * p > J2) || !(p * (p * p - J2) > J3);
       const mask_t<R> rest = J2 == R(0) && p >= p_floor.as<R>() && p >= R(0);  // zero stress is admissible
       const R size = p + J2;
-      const mask_t<R> broken = size - size != R(0);  // NaN and infinity alike
+      const mask_t<R> broken = !real::is_finite(size);
       bits_t<R> reasons = real::flag<R>(low, pressure_floor) | real::flag<R>(pulls && !rest, tension) |
                           real::flag<R>(broken, not_finite);
       if constexpr (on<Critical>) {
@@ -138,7 +138,7 @@ struct Hypoplastic {
       const mask_t<R> low = state.ln_trace < lowest;
       const mask_t<R> pulls = !(third > J2) || !(third * (third * third - J2) > J3);
       const R size = state.ln_trace + J2;
-      const mask_t<R> broken = size - size != R(0);
+      const mask_t<R> broken = !real::is_finite(size);
       bits_t<R> reasons =
           real::flag<R>(low, pressure_floor) | real::flag<R>(pulls, tension) | real::flag<R>(broken, not_finite);
       if constexpr (on<Critical>) {

@@ -125,6 +125,12 @@ constexpr R abs(const R& x) {
   return select<R>(x < R(0), -x, x);
 }
 
+/// Neither NaN nor infinite.
+template <Real R>
+constexpr mask_t<R> is_finite(const R& x) {
+  return abs(x) <= R(std::numeric_limits<scalar_t<R>>::max());
+}
+
 /// Smallest magnitude by which a law divides: below it the reciprocal would overflow.
 template <Real R>
 constexpr R tiny() {

@@ -45,10 +45,21 @@ constexpr void each(SymTensor<R>& a, F&& f) {
   f(a.xx), f(a.yy), f(a.zz), f(a.yz), f(a.xz), f(a.xy);
 }
 template <class R, class F>
+constexpr void each(const Tensor<R>& a, F&& f) {
+  f(a.xx), f(a.xy), f(a.xz), f(a.yx), f(a.yy), f(a.yz), f(a.zx), f(a.zy), f(a.zz);
+}
+template <class R, class F>
 constexpr void each(Tensor<R>& a, F&& f) {
   f(a.xx), f(a.xy), f(a.xz), f(a.yx), f(a.yy), f(a.yz), f(a.zx), f(a.zy), f(a.zz);
 }
 
+/// Sum of |A_ij|: finite exactly when every component is.
+template <class R>
+constexpr R size_of(const Tensor<R>& a) {
+  R sum(0);
+  each(a, [&](const R& x) { sum = sum + real::abs(x); });
+  return sum;
+}
 template <class R>
 constexpr R trace(const SymTensor<R>& a) {
   return a.xx + a.yy + a.zz;
@@ -142,10 +153,12 @@ constexpr R shear_rate(const SymTensor<R>& d) {
 template <Real R>
 constexpr R largest_of_deviator(const R& J2, const R& J3) {
   const R safe_J2 = real::at_least<R>(J2, real::tiny<R>());
-  R x = Constant(1.1547005383792517) * real::sqrt(safe_J2);  // 2 sqrt(J2/3), never below the root
-  const R floor = Constant(1e-9) * safe_J2;                  // the derivative vanishes only where the root is double
+  const R lowest = real::sqrt(Constant(1.0 / 3) * safe_J2);  // the root itself where it is double; never above it
+  R x = Constant(2) * lowest;                                // never below the root
   for (int i = 0; i < 40; ++i) {
-    x = x - (x * (x * x - safe_J2) - J3) / real::at_least<R>(Constant(3) * x * x - safe_J2, floor);
+    const R slope = real::at_least<R>(Constant(3) * x * x - safe_J2, Constant(1e-9) * safe_J2);
+    // at a double root value and slope are both round-off: the bound catches what their quotient throws out
+    x = real::at_least<R>(x - (x * (x * x - safe_J2) - J3) / slope, lowest);
   }
   return x;
 }
