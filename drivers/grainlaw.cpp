@@ -3,12 +3,40 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "commands/commands.hpp"
 #include "input/source.hpp"
 #include "version.hpp"
+
+namespace {
+
+/// What may have been meant by the first word or option that nobody knows.
+std::string advice(CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> known;
+  for (const auto* each : app.get_subcommands({})) known.push_back(each->get_name());
+  if (words.empty()) return "commands: " + grainlaw::input::join(known);
+  if (std::find(known.begin(), known.end(), words[0]) == known.end() && !words[0].starts_with('-'))
+    return fmt::format("'{}' is no command; {}", words[0], grainlaw::input::did_you_mean(words[0], known));
+  const CLI::App& chosen = words[0].starts_with('-') ? app : *app.get_subcommand(words[0]);
+  known.clear();
+  for (const auto* option : chosen.get_options()) {
+    if (option->nonpositional()) known.push_back(option->get_name(false, false));
+  }
+  for (const auto& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end())
+      return fmt::format("'{}' is no option of it; {}", name, grainlaw::input::did_you_mean(name, known));
+  }
+  return fmt::format("see '{} --help'", &chosen == &app ? "grainlaw" : "grainlaw " + chosen.get_name());
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace grainlaw;
@@ -54,10 +82,11 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& wrong) {
-    app.exit(wrong);
+    fmt::print(stderr, "grainlaw: error: {}\n  = {}\n", wrong.what(), advice(app, {argv + 1, argv + argc}));
     return commands::bad_input;
   } catch (const input::InputError& wrong) {
-    fmt::print(stderr, "{}", wrong.what());
+    const std::string_view text = wrong.what();
+    fmt::print(stderr, "{}{}", text, text.ends_with('\n') ? "" : "\n");
     return commands::bad_input;
   } catch (const std::exception& wrong) {
     fmt::print(stderr, "grainlaw: error: {}\n", wrong.what());

@@ -94,7 +94,7 @@ FileOutcome run_file(const ElementFile& file, const fs::path& dir, bool quiet) {
     hooks.progress = [&](double share, double step) { progress.show(share, step); };
     hooks.interrupted = [] { return stop_asked != 0; };
     RunRecord record = run(test, hooks);
-    csv.close();
+    csv.close(record.columns);
     progress.clear();
     if (record.status != Status::done)
       fmt::print(stderr, "{}: {}: {}\n", file.path.string(), record.status == Status::failed ? "error" : "stopped",
@@ -125,6 +125,22 @@ FileOutcome run_file(const ElementFile& file, const fs::path& dir, bool quiet) {
   outcome.wall_s = since(wall_from);
   outcome.cpu_s = cpu_now() - cpu_from;
   return outcome;
+}
+
+/// Makes every folder, or none of them.
+void make_all(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> made;
+  std::error_code failed, none;
+  for (const auto& folder : folders) {
+    fs::path fresh;  // the topmost folder that is not there yet
+    for (fs::path at = fs::absolute(folder); !at.empty() && !fs::exists(at, none); at = at.parent_path()) fresh = at;
+    fs::create_directories(folder, failed);
+    if (!fresh.empty()) made.push_back(fresh);
+    if (!failed) continue;
+    for (const auto& path : made) fs::remove_all(path, none);
+    throw input::InputError(
+        fmt::format("error: the folder '{}' cannot be made: {}\n", folder.string(), failed.message()));
+  }
 }
 
 void print_outcome(const ElementFile& file, const FileOutcome& outcome) {
@@ -167,13 +183,8 @@ int element(const ElementOptions& options) {
   if (fs::exists(out, failed) && !fs::is_directory(out, failed))
     throw input::InputError(fmt::format("error: --out {}: is a file, not a folder\n", out.string()));
   std::vector<fs::path> folders;
-  for (const auto& file : files) {
-    folders.push_back(several ? out / file.path.stem() : out);
-    fs::create_directories(folders.back(), failed);
-    if (failed)
-      throw input::InputError(
-          fmt::format("error: the folder '{}' cannot be made: {}\n", folders.back().string(), failed.message()));
-  }
+  for (const auto& file : files) folders.push_back(several ? out / file.path.stem() : out);
+  make_all(folders);
   if (!options.quiet) {
     for (const auto& file : files) {
       for (const auto& w : file.warnings) fmt::print(stderr, "{}: warning: {}\n", file.path.string(), w);
@@ -205,7 +216,7 @@ int element(const ElementOptions& options) {
     std::set<std::string> said;
     for (const auto& page : pages) {
       const auto report = report::build(page);
-      if (!report.message.empty() && said.insert(report.message).second)
+      if (!options.quiet && !report.message.empty() && said.insert(report.message).second)
         fmt::print(stderr, "note: {}\n", report.message);
     }
     if (!options.quiet) fmt::print("report: {}\n", (out / "report.html").string());

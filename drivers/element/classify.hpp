@@ -6,7 +6,13 @@
 
 namespace grainlaw::element {
 
-/// Index of the peak: the first maximum that a drop of more than 3 % follows, or the largest value when there is none.
+/// Index of the largest value.
+inline std::size_t largest_index(const std::vector<double>& stress) {
+  return std::size_t(std::max_element(stress.begin(), stress.end()) - stress.begin());
+}
+
+/// Index of the peak of an undrained test: the first maximum that a drop of more than 3 % follows, or the largest value
+/// when there is none. (A drained test may be unloaded on its way; its peak is the largest value.)
 inline std::size_t peak_index(const std::vector<double>& stress) {
   std::size_t top = 0;
   for (std::size_t i = 0; i < stress.size(); ++i) {
@@ -16,7 +22,7 @@ inline std::size_t peak_index(const std::vector<double>& stress) {
   return top;
 }
 
-/// The response of a shear test from the size of its stress along the path.
+/// The response of an undrained test from the size of its stress along the path.
 ///
 ///     dilative               never more than 3 % below an earlier maximum
 ///     liquefaction           ends below a fifth of its peak

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
+#include <memory>
 #include <string_view>
-
-#include "../input/source.hpp"
 
 namespace grainlaw::element {
 
@@ -26,7 +26,7 @@ std::vector<std::string_view> split(std::string_view line) {
     const auto comma = line.find(',');
     std::string_view cell = line.substr(0, comma);
     while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
-    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r')) cell.remove_suffix(1);
+    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t')) cell.remove_suffix(1);
     cells.push_back(cell);
     if (comma == std::string_view::npos) return cells;
     line.remove_prefix(comma + 1);
@@ -36,36 +36,57 @@ std::vector<std::string_view> split(std::string_view line) {
 }  // namespace
 
 Csv read_csv(const std::filesystem::path& file) {
+  auto text = std::make_shared<input::Source>(input::Source{file.string(), {}});
   std::ifstream in(file);
-  if (!in) throw input::InputError(fmt::format("{}: error: cannot be read\n", file.string()));
-  Csv csv;
-  int number = 0;
+  const auto whole = [&] { return input::Mark{text, -1, -1}; };
+  if (!in) input::fail(whole(), "the file cannot be read", "check its permissions");
   for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.empty() || line[0] == '#' || line == "\r") continue;
+    if (line.ends_with('\r')) line.pop_back();
+    if (text->lines.empty() && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    text->lines.push_back(std::move(line));
+  }
+  Csv csv;
+  for (std::size_t number = 0; number < text->lines.size(); ++number) {
+    const std::string& line = text->lines[number];
+    const auto place = [&](std::string_view cell) {
+      return input::Mark{text, int(number), int(cell.data() - line.data())};
+    };
+    if (line.empty() || line[0] == '#') continue;
     const auto cells = split(line);
     if (csv.names.empty()) {
       for (const auto cell : cells) csv.names.emplace_back(cell);
       csv.columns.resize(cells.size());
+      csv.no_number.resize(cells.size());
       continue;
     }
     if (cells.size() != csv.names.size()) {
-      throw input::InputError(fmt::format("{}:{}:1: error: {} values under {} column names\n", file.string(), number,
-                                          cells.size(), csv.names.size()));
+      input::fail(place(line), fmt::format("{} values under {} column names", cells.size(), csv.names.size()),
+                  "every row needs one value per column, separated by commas");
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       double value = 0;
       const char* end = cells[i].data() + cells[i].size();
       const auto [at, error] = std::from_chars(cells[i].data(), end, value);
-      if (error != std::errc{} || at != end) {
-        throw input::InputError(fmt::format("{}:{}:1: error: '{}' in column '{}' is not a number\n", file.string(),
-                                            number, cells[i], csv.names[i]));
-      }
-      csv.columns[i].push_back(value);
+      const bool number_typed = error == std::errc{} && at == end && std::isfinite(value);
+      if (!number_typed && !csv.no_number[i]) csv.no_number[i] = place(cells[i]);
+      csv.columns[i].push_back(number_typed ? value : std::nan(""));
     }
   }
-  if (csv.names.empty()) throw input::InputError(fmt::format("{}: error: has no header line\n", file.string()));
+  if (csv.names.empty()) input::fail(whole(), "there is no header line", "name the columns in the first line");
+  if (csv.columns[0].empty()) input::fail(whole(), "there is no row of numbers", "the header line stands alone");
   return csv;
+}
+
+int Csv::numbers(const std::string& name, const input::Mark& asked_at) const {
+  const int found = find(name);
+  if (found < 0) {
+    input::fail(asked_at, fmt::format("the data file has no column '{}'", name), input::did_you_mean(name, names));
+  }
+  if (const auto& wrong = no_number[std::size_t(found)]) {
+    input::fail(*wrong, fmt::format("this is not a number, but column '{}' is compared", name),
+                "leave rows without a value out of the file");
+  }
+  return found;
 }
 
 }  // namespace grainlaw::element

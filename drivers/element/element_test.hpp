@@ -75,13 +75,18 @@ struct ElementTest {
   double axial_sign = 1;      ///< triaxial: -1 compression, +1 extension
   std::string main_quantity;  ///< column whose peak and residual the tables show
   std::vector<std::string> notes, warnings;
+
+  /// Liquefaction, softening and dilation are words for shearing at constant volume.
+  bool has_response_class() const { return columns.excess_pore_pressure; }
 };
 
 struct Axis {
   std::string data;   ///< column name in the CSV
   double factor = 1;  ///< to SI, sign included
   double offset = 0;
-  std::string run;  ///< column of the run, without unit
+  bool engineering = false;        ///< the data are engineering strains: ln(1 + value) is compared
+  bool relative_to_first = false;  ///< the data count from their first row
+  std::string run;                 ///< column of the run, without unit
 };
 
 struct Comparison {
@@ -97,7 +102,7 @@ struct Expectation {
   std::string run;  ///< empty: every run
   std::string column;
   enum class At { end, peak, value } at = At::end;
-  std::string at_column;
+  std::string at_column, at_unit;
   double at_value = 0;
   double value = 0;
   std::string unit;

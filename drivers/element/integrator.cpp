@@ -40,7 +40,8 @@ const MethodInfo& info(Method method) {
 
 namespace {
 
-constexpr int most_retries = 12;  // each one divides the step by four: 4^12 = 1.7e7
+constexpr long steps_per_call = 5000;  // then it is asked whether the time still moves
+constexpr int most_retries = 12;         // each one divides the step by four: 4^12 = 1.7e7
 
 /// Which family of SUNDIALS calls a method needs.
 enum class Family { cvode, erk };
@@ -63,13 +64,18 @@ ARKODE_ERKTableID table(Method method) {
   }
 }
 
+/// What SUNDIALS hands back to its callbacks.
+struct User {
+  const Ode* ode;
+  std::function<int(double, const double*, double*)> evaluate;
+};
+
 int derivative_of(realtype t, N_Vector y, N_Vector dydt, void* user) {
-  const auto& ode = *static_cast<const Ode*>(user);
-  return ode.derivative(ode.self, t, NV_DATA_S(y), NV_DATA_S(dydt));
+  return static_cast<const User*>(user)->evaluate(t, NV_DATA_S(y), NV_DATA_S(dydt));
 }
 
 int weights_of(N_Vector y, N_Vector weights, void* user) {
-  const auto& ode = *static_cast<const Ode*>(user);
+  const Ode& ode = *static_cast<const User*>(user)->ode;
   double* w = NV_DATA_S(weights);
   ode.tolerance(ode.self, NV_DATA_S(y), w);
   for (int i = 0; i < ode.size; ++i) {
@@ -126,18 +132,20 @@ std::string words(Family kind, int flag) {
 }  // namespace
 
 struct Integrator::Sundials {
-  Sundials(Ode& ode, Method method) : kind(family(method)) {
+  Sundials(const Ode& ode, Method method, std::function<int(double, const double*, double*)> evaluate)
+      : user{&ode, std::move(evaluate)}, kind(family(method)) {
     if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS: no context");
     y = N_VNew_Serial(ode.size, context);
+    N_VEnableFusedOps_Serial(y, SUNTRUE);  // vectors of seven numbers: the calls cost more than the sums
     N_VConst(0, y);
     switch (kind) {
       case Family::cvode:
         memory = CVodeCreate(method == Method::bdf ? CV_BDF : CV_ADAMS, context);
         check(CVodeInit(memory, derivative_of, 0, y), "CVodeInit");
-        check(CVodeSetUserData(memory, &ode), "CVodeSetUserData");
+        check(CVodeSetUserData(memory, &user), "CVodeSetUserData");
         CVodeSetErrHandlerFn(memory, quiet, nullptr);
         check(CVodeWFtolerances(memory, weights_of), "CVodeWFtolerances");
-        CVodeSetMaxNumSteps(memory, -1);
+        CVodeSetMaxNumSteps(memory, steps_per_call);
         if (method == Method::bdf) {
           matrix = SUNDenseMatrix(ode.size, ode.size, context);
           linear = SUNLinSol_Dense(y, matrix, context);
@@ -150,10 +158,10 @@ struct Integrator::Sundials {
       case Family::erk:
         memory = ERKStepCreate(derivative_of, 0, y, context);
         check(ERKStepSetTableNum(memory, table(method)), "ERKStepSetTableNum");
-        check(ERKStepSetUserData(memory, &ode), "ERKStepSetUserData");
+        check(ERKStepSetUserData(memory, &user), "ERKStepSetUserData");
         ERKStepSetErrHandlerFn(memory, quiet, nullptr);
         check(ERKStepWFtolerances(memory, weights_of), "ERKStepWFtolerances");
-        ERKStepSetMaxNumSteps(memory, -1);
+        ERKStepSetMaxNumSteps(memory, steps_per_call);
         break;
     }
   }
@@ -225,6 +233,7 @@ struct Integrator::Sundials {
     base = now;
   }
 
+  User user;
   Family kind;
   SUNContext context = nullptr;
   N_Vector y = nullptr;
@@ -236,8 +245,17 @@ struct Integrator::Sundials {
 };
 
 Integrator::Integrator(const Ode& problem, const IntegratorSettings& chosen) : ode(problem), settings(chosen) {
-  if (ode.size > 0 && !info(settings.method).fixed_step) sundials = std::make_unique<Sundials>(ode, settings.method);
-  work.resize(std::size_t(ode.size) * 5);
+  if (ode.size > 0 && !info(settings.method).fixed_step) {
+    sundials = std::make_unique<Sundials>(
+        ode, settings.method, [this](double t, const double* y, double* dydt) { return evaluate(t, y, dydt); });
+  }
+  work.resize(std::size_t(ode.size) * 6);
+}
+
+int Integrator::evaluate(double t, const double* y, double* dydt) {
+  if (++evaluations % 4096 == 0 && settings.heartbeat && !settings.heartbeat(t, last_step())) stop = true;
+  if (stop) return -1;
+  return ode.derivative(ode.self, t, y, dydt) == 0 ? 0 : 1;
 }
 
 Integrator::~Integrator() = default;
@@ -264,9 +282,9 @@ bool Integrator::advance(double t, double* y) {
 bool Integrator::adaptive_advance(double t, double* y) {
   std::copy(y, y + ode.size, work.begin());  // to begin again from here if a trial state is inadmissible
   const double t_from = reached;
-  double largest = t - t_from;
+  double largest = t - t_from, at = t_from;
   for (int attempt = 0;; ++attempt) {
-    double at = t_from;
+    const double before = at;
     const int flag = sundials->evolve(t, &at);
     sundials->add_to(totals);
     if (flag >= 0) {
@@ -274,6 +292,13 @@ bool Integrator::adaptive_advance(double t, double* y) {
       reached = t;
       return true;
     }
+    if (stop) {
+      reached = at;
+      failure_text = "stopped";
+      return false;
+    }
+    const bool long_way = flag == (sundials->kind == Family::cvode ? CV_TOO_MUCH_WORK : ARK_TOO_MUCH_WORK);
+    if (long_way && at - before > 1e-6 * (t - t_from)) continue;
     // Explicit ARKODE cannot recover from a trial state that the law refuses: start again with smaller steps.
     const bool inadmissible =
         flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR || flag == ARK_RHSFUNC_FAIL;
@@ -292,10 +317,10 @@ bool Integrator::adaptive_advance(double t, double* y) {
 
 bool Integrator::fixed_advance(double t, double* y) {
   const std::size_t n = std::size_t(ode.size);
-  double *k1 = work.data(), *k2 = k1 + n, *k3 = k2 + n, *k4 = k3 + n, *trial = k4 + n;
+  double *k1 = work.data(), *k2 = k1 + n, *k3 = k2 + n, *k4 = k3 + n, *trial = k4 + n, *good = trial + n;
   const auto rate = [&](double at, const double* state, double* k) {
     ++totals.rhs_evaluations;
-    return ode.derivative(ode.self, at, state, k) == 0;
+    return evaluate(at, state, k) == 0;
   };
   const auto step_from = [&](double h, const double* k) {
     for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + h * k[i];
@@ -306,6 +331,7 @@ bool Integrator::fixed_advance(double t, double* y) {
   const long steps = std::max(1L, long(std::ceil((t - t_from) / settings.fixed_step * (1 - 1e-12))));
   for (long s = 0; s < steps; ++s) {
     const double at = t_from + (t - t_from) * double(s) / double(steps), h = (t - t_from) / double(steps);
+    std::copy(y, y + n, good);
     bool fine = rate(at, y, k1);
     switch (settings.method) {
       case Method::euler:
@@ -327,12 +353,13 @@ bool Integrator::fixed_advance(double t, double* y) {
     }
     ++totals.steps;
     last_fixed = h;
-    reached = at + h;
-    if (!fine || !std::all_of(y, y + n, [](double v) { return std::isfinite(v); })) {
-      failure_text = "the fixed step left the states that the law admits: the step is too large";
+    fine = fine && std::all_of(y, y + n, [](double v) { return std::isfinite(v); });
+    if (!fine || (ode.acceptable && !ode.acceptable(ode.self, at + h, good, y))) {
+      std::copy(good, good + n, y);
+      reached = at;
+      failure_text = stop ? "stopped" : "the fixed step is beyond the stability limit of this law";
       return false;
     }
-    if (ode.admit) ode.admit(ode.self, reached, y);
   }
   reached = t;
   return true;

@@ -28,43 +28,45 @@ struct RateProgramme {
     return most;
   }
   double at(double t) const {
+    double begin = 0;  // summed as in kinks(), so that both agree to the last bit
     for (const auto& p : pieces) {
-      if (t < p.over) return p.from + (p.to - p.from) * t / p.over;
-      t -= p.over;
+      if (t < begin + p.over) return p.from + (p.to - p.from) * ((t - begin) / p.over);
+      begin += p.over;
     }
     return last();
   }
   double slope(double t) const {
+    double begin = 0;
     for (const auto& p : pieces) {
-      if (t < p.over) return (p.to - p.from) / p.over;
-      t -= p.over;
+      if (t < begin + p.over) return (p.to - p.from) / p.over;
+      begin += p.over;
     }
     return 0;
   }
   /// Integral of the rate from 0 to t.
   double strain(double t) const {
-    double sum = 0;
+    double sum = 0, begin = 0;
     for (const auto& p : pieces) {
-      const double in = std::min(t, p.over);
+      if (t <= begin) return sum;
+      const double in = std::min(t - begin, p.over);
       if (in > 0) sum += in * (p.from + 0.5 * (p.to - p.from) * in / p.over);
-      t -= p.over;
-      if (t <= 0) return sum;
+      begin += p.over;
     }
-    return sum + last() * t;
+    return sum + last() * std::max(t - begin, 0.0);
   }
   /// Integral of |rate| from 0 to t: the length of the strain path.
   double path(double t) const {
-    double sum = 0;
+    double sum = 0, begin = 0;
     for (const auto& p : pieces) {
-      const double in = std::min(t, p.over);
+      if (t <= begin) return sum;
+      const double in = std::min(t - begin, p.over);
       if (in > 0) {
         const double a = p.from, b = p.from + (p.to - p.from) * in / p.over;
         sum += a * b >= 0 ? 0.5 * in * std::abs(a + b) : 0.5 * in * (a * a + b * b) / std::abs(b - a);
       }
-      t -= p.over;
-      if (t <= 0) return sum;
+      begin += p.over;
     }
-    return sum + std::abs(last()) * t;
+    return sum + std::abs(last()) * std::max(t - begin, 0.0);
   }
   /// The time at which path() reaches a length; infinity when it never does.
   double time_of_path(double length) const {

@@ -37,6 +37,21 @@ const std::vector<KindName> kinds{{Kind::simple_shear, "simple_shear"},
                                   {Kind::pure_rotation, "pure_rotation"},
                                   {Kind::point, "point"}};
 
+const std::vector<std::string> later_kinds{"biaxial",   "oedometer",      "isotropic",
+                                           "programme", "infinite_slope", "wellposedness"};
+
+Kind read_kind(Reader& test, std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& k : kinds) names.push_back(k.name);
+  const Node* kind = test.find("kind");
+  if (kind && std::find(later_kinds.begin(), later_kinds.end(), kind->text) != later_kinds.end()) {
+    input::fail(kind->mark, fmt::format("test.kind = '{}' is not available in this version", kind->text),
+                "available: " + input::join(names));
+  }
+  name = test.word("kind", names);
+  return std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == name; })->kind;
+}
+
 /// What the law of a material needs, known without building it.
 struct LawNeeds {
   bool void_ratio = false, stress = false, forms = false;
@@ -52,24 +67,12 @@ LawNeeds needs_of(const std::string& law) {
   return needs;
 }
 
-/// The law's name before the rest of the material is read (void ratio and k_v depend on it).
-std::string law_of(const Reader& material, const fs::path& beside) {
-  if (const Node* law = material.node().find("law"); law && law->is_scalar()) return law->text;
-  if (const Node* use = material.node().find("use"); use && use->is_scalar()) {
-    if (const auto file = find_material(use->text, beside)) {
-      const Node tree = input::read_yaml(*file);
-      if (const Node* law = tree.find("law"); law && law->is_scalar()) return law->text;
-    }
-  }
-  return "";
-}
-
 class TestReader {
  public:
   TestReader(ElementTest& t, Reader r, std::string law_name, Defaults& d)
       : test(t), reader(std::move(r)), law(std::move(law_name)), needs(needs_of(law)), defaults(d) {}
 
-  void read_void_ratio() {
+  void read_void_ratio(const Node& material) {
     // in the annular cell and at a point it stands beside the kind, elsewhere under `initial`
     const bool beside = test.kind == Kind::annular_shear_cell || test.kind == Kind::point;
     std::optional<double> value;
@@ -85,18 +88,21 @@ class TestReader {
       }
     };
     if (beside) look(reader);
-    if (reader.has("initial") && reader.node().find("initial")->is_map()) {
+    if (reader.has("initial")) {
       Reader initial = reader.map("initial");
       look(initial);
     }
-    if (!value && needs.void_ratio) {
+    const Node* k_v = material.find("k_v");
+    const bool by_formula = k_v && k_v->is_map();  // Bagnold's formula needs the spacing of the grains
+    if (!value && (needs.void_ratio || by_formula)) {
       const Node* initial = reader.node().find("initial");
       input::fail(initial && !beside ? initial->mark : reader.node().mark,
-                  fmt::format("{} is missing: law '{}' depends on the void ratio",
-                              beside ? "test.void_ratio" : "test.initial.void_ratio", law),
+                  fmt::format("'{}' is missing: {} depends on the void ratio",
+                              beside ? "test.void_ratio" : "test.initial.void_ratio",
+                              needs.void_ratio ? fmt::format("law '{}'", law) : "Bagnold's formula for k_v"),
                   "give void_ratio [-] or solid_fraction [-], for example 'void_ratio: 0.845'");
     }
-    if (value && !needs.void_ratio && test.kind != Kind::annular_shear_cell) {
+    if (value && !needs.void_ratio && !by_formula && test.kind != Kind::annular_shear_cell) {
       Reader place =
           beside && (reader.has("void_ratio") || reader.has("solid_fraction")) ? reader : reader.map("initial");
       place.inert(place.has("void_ratio") ? "void_ratio" : "solid_fraction",
@@ -113,7 +119,7 @@ class TestReader {
     return k_v;
   }
 
-  void read(const Reader& root) {
+  void read() {
     switch (test.kind) {
       case Kind::simple_shear:
         simple_shear();
@@ -136,7 +142,6 @@ class TestReader {
         input::fail(specimen->mark, "test.specimen must be a name", "for example 'specimen: TMU1'");
       test.notes.push_back("specimen " + specimen->text);
     }
-    (void)root;
   }
 
   Reader& raw() { return reader; }
@@ -144,12 +149,13 @@ class TestReader {
  private:
   SymTensor<double> read_stress(Reader map) {
     SymTensor<double> s{};
+    if (map.node().entries.empty())
+      input::fail(map.node().mark, map.path() + " is empty",
+                  "for example 'stress: {xx: -100 kPa, yy: -100 kPa, "
+                  "zz: -100 kPa}'");
     const auto component = [&](const char* key, double& value, bool normal) {
-      if (normal) {
-        value = map.number(key, "Pa");
-      } else {
-        value = map.number_or(key, "Pa", 0);
-      }
+      // a granular law has no use for a normal stress of zero: it was forgotten
+      value = normal && law != "elastic" ? map.number(key, "Pa") : map.number_or(key, "Pa", 0);
     };
     component("xx", s.xx, true), component("yy", s.yy, true), component("zz", s.zz, true);
     component("yz", s.yz, false), component("xz", s.xz, false), component("xy", s.xy, false);
@@ -169,10 +175,9 @@ class TestReader {
       test.compaction = map.number_or("compaction", "-", 0, {.low = -1, .high = 1e3, .low_open = true});
       return;
     }
-    if (map.has("compaction"))
-      map.inert("compaction", fmt::format("law '{}' carries its stress: give pressure or stress", law));
+    map.inert("compaction", fmt::format("law '{}' carries its stress: give pressure or stress", law));
     if (map.has("stress")) {
-      if (map.has("pressure")) map.inert("pressure", "stress gives every component");
+      map.inert("pressure", "stress gives every component");
       test.initial_stress = read_stress(map.map("stress"));
     } else {
       const double p = map.number("pressure", "Pa", law == "elastic" ? input::Range{} : input::positive);
@@ -274,14 +279,14 @@ class TestReader {
       test.control.held_stress.zz = -normal;
       test.columns.volumetric = true;
     } else {
-      if (reader.has("normal_stress")) reader.inert("normal_stress", "hold: volume keeps the volume, not the stress");
+      reader.inert("normal_stress", "hold: volume keeps the volume, not the stress");
       test.columns.excess_pore_pressure = needs.stress;
     }
     test.main_quantity = "shear_stress";
   }
 
   void annular_shear_cell() {
-    if (reader.has("shear_rate")) reader.inert("shear_rate", "the cell is driven by kappa, with dv_x/dz = 2 kappa");
+    reader.inert("shear_rate", "the cell is driven by kappa, with dv_x/dz = 2 kappa");
     read_initial();
     test.control.rate =
         read_rate("kappa", "1/s", 2, "half of dv_x/dz, for example 'kappa: [{from: 10 1/s, to: 500 1/s, over: 20 s}]'");
@@ -296,6 +301,8 @@ class TestReader {
     if (!reader.has("mode")) defaults.add("test.mode", "compression");
     read_initial();
     test.axial_sign = mode == "compression" ? -1 : 1;
+    if (reader.has("cyclic"))
+      input::fail(reader.mark("cyclic"), "test.cyclic is not available in this version", "give axial_rate and until");
     const double rate = reader.number("axial_rate", "1/s", input::positive);
     test.control.rate = RateProgramme::constant(rate);
     test.control.pattern.zz = test.axial_sign;
@@ -353,10 +360,8 @@ class TestReader {
     }
     test.control.pattern = {l[0], l[1], l[2], l[3], l[4], l[5], l[6], l[7], l[8]};
     test.control.rate = RateProgramme::constant(1);
-    if (reader.has("density")) {
-      reader.inert("density",
-                   fmt::format("law '{}' has no density of its own: give stress, void_ratio or compaction", law));
-    }
+    reader.inert("density",
+                 fmt::format("law '{}' has no density of its own: give stress, void_ratio or compaction", law));
     if (reader.has("initial")) {
       read_initial();
     } else {
@@ -372,11 +377,11 @@ class TestReader {
   Defaults& defaults;
 };
 
-void read_until(ElementTest& test, Reader& reader) {
+void read_until(ElementTest& test, Reader& reader, Defaults& defaults) {
   const auto& rate = test.control.rate;
   const bool programme = rate.duration() > 0;
   if (test.kind == Kind::pure_rotation) {
-    if (reader.has("until")) reader.inert("until", "revolutions says when the test ends");
+    reader.inert("until", "revolutions says when the test ends");
     return;
   }
   double end = std::numeric_limits<double>::infinity();
@@ -408,14 +413,28 @@ void read_until(ElementTest& test, Reader& reader) {
     }
     test.until.pressure_ratio =
         until.maybe_number("pressure_ratio", "-", {.low = 0, .high = 1, .low_open = true, .high_open = true});
-    if (until.has("cycles")) until.inert("cycles", "this test is monotonic");
+    if (test.until.pressure_ratio && !(trace(test.initial_stress) < 0))
+      until.inert("pressure_ratio", "the test starts without a pressure");
+    until.inert("cycles", "this test is monotonic");
     until.finish();
     if (programme && !std::isfinite(end)) end = rate.duration();
     if (!std::isfinite(end)) {
-      input::fail(until.node().mark, "test.until has no strain or time: the test might never end",
-                  "add 'shear_strain', 'axial_strain' or 'time [s]' as a last resort");
+      const char* key = triaxial ? "axial_strain" : "shear_strain";
+      if (!test.until.pressure_ratio) {
+        input::fail(until.node().mark, "test.until is empty: the test would never end",
+                    fmt::format("for example 'until: {{{}: 0.2}}'", key));
+      }
+      // a ratio that is never reached must not run for ever
+      const double farthest = triaxial ? 1 : 10;
+      end = rate.time_of_path(farthest);
+      defaults.add(fmt::format("test.until.{}", key), fmt::format("{}", farthest));
+      test.warnings.push_back(
+          fmt::format("until: {{pressure_ratio}} stands alone; the test ends at {} = {} at the latest", key, farthest));
     }
   }
+  if (rate.path(end) == 0)
+    input::fail(reader.mark("until"), "nothing happens before the test ends: the rate is still zero",
+                "let it last longer, or begin with a rate different from zero");
   test.until.time = end;
 }
 
@@ -428,9 +447,10 @@ void read_output(ElementTest& test, const Node* node, Defaults& defaults) {
   if (node) {
     Reader output(*node, "output");
     if (auto spacing = output.maybe_map("every")) {
-      if (output.has("rows")) output.inert("rows", "every gives the distance between rows");
+      output.inert("rows", "every gives the distance between rows");
       const bool triaxial = test.kind == Kind::triaxial, rotation = test.kind == Kind::pure_rotation;
       const char* own = triaxial ? "axial_strain" : rotation ? "revolutions" : "shear_strain";
+      spacing->known({own, "time"});
       for (const char* key : {"shear_strain", "axial_strain", "revolutions"}) {
         if (std::string_view(key) != own && spacing->has(key))
           spacing->inert(key, fmt::format("this test counts {}", own));
@@ -481,7 +501,21 @@ StateForm form_for(const ElementTest& test, const LawNeeds& needs) {
 /// -1000 |D| an explicit method needs some 600 evaluations per unit of strain, BDF about 1500 altogether.
 constexpr double longest_explicit_path = 10;
 
-void read_integrator(ElementTest& test, const Node* node, Defaults& defaults) {
+/// Whether a list of methods has some with a fixed step and some with error control: then `step` and `rtol` may stand
+/// side by side, as each has a run that uses it.
+bool mixed_methods(const Node& file) {
+  const Node* integrator = file.find("integrator");
+  const Node* list = integrator ? integrator->find("method") : nullptr;
+  if (!list || !list->is_sequence()) return false;
+  const auto has_fixed_step = [](const Node& name) {
+    return std::any_of(methods().begin(), methods().end(),
+                       [&](const MethodInfo& m) { return m.name == name.text && m.fixed_step; });
+  };
+  const auto fixed = std::count_if(list->items.begin(), list->items.end(), has_fixed_step);
+  return fixed > 0 && fixed < std::ptrdiff_t(list->items.size());
+}
+
+void read_integrator(ElementTest& test, const Node* node, bool mixed, Defaults& defaults) {
   Integration& integration = test.integration;
   const LawNeeds needs = needs_of(test.material.law);
   const double strain = test.control.rate.path(test.until.time) * norm(symmetric(test.control.pattern));
@@ -513,7 +547,11 @@ void read_integrator(ElementTest& test, const Node* node, Defaults& defaults) {
 
   if (info(integration.method).fixed_step) {
     for (const char* key : {"rtol", "atol"}) {
-      if (reader.has(key)) reader.inert(key, fmt::format("{} has a fixed step and no error control", name));
+      if (mixed) {
+        reader.known({key});
+      } else {
+        reader.inert(key, fmt::format("{} has a fixed step and no error control", name));
+      }
     }
     const Node& step = reader.need("step", "a strain increment [-] or a time [s], for example 'step: 1e-4'");
     if (step.is_scalar() && input::unit_typed(step).empty()) {
@@ -525,7 +563,11 @@ void read_integrator(ElementTest& test, const Node* node, Defaults& defaults) {
     if (test.until.time / integration.fixed_step > 1e10)
       input::fail(step.mark, "more than ten billion steps", "make the step larger or the test shorter");
   } else {
-    if (reader.has("step")) reader.inert("step", fmt::format("{} chooses its own steps: give rtol", name));
+    if (mixed) {
+      reader.known({"step"});
+    } else {
+      reader.inert("step", fmt::format("{} chooses its own steps: give rtol", name));
+    }
     integration.rtol = reader.number_or("rtol", "-", 1e-9, {.low = 1e-14, .high = 0.1});
     if (!reader.has("rtol")) defaults.add("integrator.rtol", "1e-09");
     if (reader.has("atol")) {
@@ -540,7 +582,7 @@ void read_integrator(ElementTest& test, const Node* node, Defaults& defaults) {
   reader.finish();
 }
 
-ElementTest read_run(const SingleRun& single, const fs::path& beside, Defaults& defaults) {
+ElementTest read_run(const SingleRun& single, const fs::path& beside, bool mixed, Defaults& defaults) {
   ElementTest test;
   test.run = single.name;
   Reader root(single.tree, "");
@@ -550,20 +592,14 @@ ElementTest read_run(const SingleRun& single, const fs::path& beside, Defaults& 
   const Node& test_node = root.need("test", "what is done to the point, for example 'test: {kind: simple_shear, ...}'");
 
   Reader raw_test(test_node, "test");
-  std::vector<std::string> names;
-  for (const auto& k : kinds) names.push_back(k.name);
-  test.kind_name = raw_test.word("kind", names);
-  test.kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.name == test.kind_name; })->kind;
-
-  const Reader material(material_node, "material");
-  const std::string law = law_of(material, beside);
-  TestReader reader(test, raw_test, law, defaults);
-  // an unknown law is reported by the material, before anything is asked of it
-  const bool known_law = with_recipe(law, [](auto) {});
-  if (known_law) reader.read_void_ratio();
-  const auto k_v = known_law ? reader.read_k_v() : std::nullopt;
-  test.material = read_material(material, beside, test.void_ratio, k_v);
-  reader.read(root);
+  test.kind = read_kind(raw_test, test.kind_name);
+  Reader material(material_node, "material");
+  const MaterialChoice choice = choose_material(material, beside);
+  TestReader reader(test, raw_test, choice.law, defaults);
+  reader.read_void_ratio(material_node);
+  const auto k_v = reader.read_k_v();
+  test.material = read_material(material, choice, test.void_ratio, k_v);
+  reader.read();
 
   const Node* output = root.find("output");
   const Node* integrator = root.find("integrator");
@@ -574,9 +610,9 @@ ElementTest read_run(const SingleRun& single, const fs::path& beside, Defaults& 
     test.integration.form = StateForm::stress;
     test.row_times = {0};
   } else {
-    read_until(test, reader.raw());
+    read_until(test, reader.raw(), defaults);
     reader.raw().finish();
-    read_integrator(test, integrator, defaults);
+    read_integrator(test, integrator, mixed, defaults);
     read_output(test, output, defaults);
   }
   root.finish();
@@ -593,57 +629,48 @@ ElementTest read_run(const SingleRun& single, const fs::path& beside, Defaults& 
   return test;
 }
 
-Node* at_path(Node& root, const std::string& path, bool& list) {
+/// Writes a value where the file has none; a key inside something else than a map is left alone.
+void fill_in(Node& root, const std::string& path, const std::string& text) {
   Node* at = &root;
-  std::size_t from = 0;
-  while (from <= path.size()) {
+  for (std::size_t from = 0; from <= path.size();) {
     const auto dot = std::min(path.find('.', from), path.size());
     const std::string key = path.substr(from, dot - from);
-    Node* next = at->find(key);
-    if (!next) {
-      if (!at->is_map()) {
-        list = true;
-        return nullptr;
-      }
-      Node fresh;
-      fresh.kind = dot == path.size() ? Node::Kind::null : Node::Kind::map;
-      at->entries.push_back({key, {}, fresh});
-      next = &at->entries.back().value;
+    if (!at->is_map()) return;
+    if (!at->find(key)) {
+      at->entries.push_back({key, {}, {}});
+      at->entries.back().value.kind = Node::Kind::map;
     }
-    at = next;
+    at = at->find(key);
     from = dot + 1;
   }
-  return at;
+  if (at->is_map() && at->entries.empty()) *at = input::scalar(text);
 }
 
 /// The file as understood: the material spelled out, defaults filled in. Lists stay lists, so the runs keep their
 /// names.
 Node understood(const Node& file, const ElementTest& first, const Defaults& defaults) {
   Node tree = file;
-  Node* material = tree.find("material");
-  const auto has_list = [&](const std::string& key) {
-    const Node* node = material->find(key);
+  Node& material = *tree.find("material");
+  const auto has_list = [&](const char* key) {
+    const Node* node = material.find(key);
     return node && node->is_sequence();
   };
-  if (const Node* use = material->find("use"); use && !use->is_sequence() && !has_list("law")) {
-    std::erase_if(material->entries, [](const auto& e) { return e.key == "use"; });
-    if (!material->find("law"))
-      material->entries.insert(material->entries.begin(), {"law", {}, input::scalar(first.material.law)});
-    const bool calibrated = material->find("calibrate") != nullptr;
-    const Node* test = tree.find("test");
+  if (!has_list("use") && !has_list("law")) {  // one law for all runs
+    if (material.find("use")) {
+      std::erase_if(material.entries, [](const auto& e) { return e.key == "use"; });
+      material.entries.insert(material.entries.begin(), {"name", {}, input::scalar(first.material.name)});
+    }
+    if (!material.find("law"))
+      material.entries.insert(material.entries.begin(), {"law", {}, input::scalar(first.material.law)});
+    const bool k_v_of_test = tree.find("test")->find("k_v") != nullptr;
     for (const auto& p : first.material.parameters) {
-      const bool from_test = p.name == "k_v" && test->find("k_v");
-      const bool by_calibration = calibrated && p.source.rfind("calibrated", 0) == 0;
-      if (material->find(p.name) || from_test || by_calibration) continue;
+      const bool calibrated = p.source.starts_with("calibrated");
+      if (material.find(p.name) || calibrated || (p.name == "k_v" && k_v_of_test)) continue;
       const std::string unit = p.unit == "-" ? "" : " " + p.unit;
-      material->entries.push_back({p.name, {}, input::scalar(fmt::format("{}{}", p.value, unit))});
+      material.entries.push_back({p.name, {}, input::scalar(fmt::format("{}{}", p.value, unit))});
     }
   }
-  for (const auto& [path, text] : defaults.list) {
-    bool blocked = false;
-    Node* node = at_path(tree, path, blocked);
-    if (node && node->is_null()) *node = input::scalar(text);
-  }
+  for (const auto& [path, text] : defaults.list) fill_in(tree, path, text);
   return tree;
 }
 
@@ -662,14 +689,21 @@ ElementFile read_element(const fs::path& path, const std::vector<std::string>& s
   const auto runs = expand(tree);
   for (const auto& single : runs) {
     Defaults own;
-    file.tests.push_back(read_run(single, beside, own));
-    if (defaults.list.empty()) defaults = own;
+    file.tests.push_back(read_run(single, beside, mixed_methods(tree), own));
+    // a default of one run may be inert in another: only what holds for all is written into the file
+    if (file.tests.size() == 1) {
+      defaults = own;
+    } else {
+      std::erase_if(defaults.list,
+                    [&](const auto& d) { return std::find(own.list.begin(), own.list.end(), d) == own.list.end(); });
+    }
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     read_results(runs[i], file.tests[i], beside, runs, file);
   }
   Reader root(tree, "");
   file.title = root.text_or("title", path.stem().string());
+  if (!root.has("title")) defaults.list.insert(defaults.list.begin(), {"title", file.title});
   file.source = root.text_or("source", "");
   file.kind = file.tests.front().kind_name;
   for (const auto& test : file.tests) {

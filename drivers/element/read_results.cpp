@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../input/reader.hpp"
 #include "csv.hpp"
@@ -51,13 +52,14 @@ Axis read_axis(Reader axis, const std::vector<Column>& columns, const Csv* csv) 
   a.data = axis.text("data", "the name of a column of the data file");
   a.run = axis.text("run", "the name of a column of the run, without its unit");
   const Column& column = find_column(columns, a.run, axis.mark("run"));
-  std::string unit = axis.text_or("unit", "-");
-  if (unit == "percent") unit = "%";
+  const std::string unit = axis.text_or("unit", "-");
   const auto factor = input::to_si(1, unit, column.unit);
   if (!factor) {
-    input::fail(axis.mark("unit"),
-                fmt::format("{} = '{}' does not fit column '{}' [{}]", axis.path("unit"), unit, a.run, column.unit),
-                "expected one of: " + input::accepted_units(column.unit));
+    const std::string what =
+        axis.has("unit")
+            ? fmt::format("{} = '{}' does not fit column '{}' [{}]", axis.path("unit"), unit, a.run, column.unit)
+            : fmt::format("'{}' is missing: column '{}' is in {}", axis.path("unit"), a.run, column.unit);
+    input::fail(axis.mark("unit"), what, "expected one of: " + input::accepted_units(column.unit));
   }
   a.factor = *factor;
   if (const Node* sign = axis.find("sign")) {
@@ -66,10 +68,12 @@ Axis read_axis(Reader axis, const std::vector<Column>& columns, const Csv* csv) 
     if (sign->text == "-1") a.factor = -a.factor;
   }
   a.offset = axis.number_or("offset", column.unit, 0);
-  if (csv && csv->find(a.data) < 0) {
-    input::fail(axis.mark("data"), fmt::format("the data file has no column '{}'", a.data),
-                input::did_you_mean(a.data, csv->names));
+  a.engineering = axis.word_or("strain", {"engineering", "logarithmic"}, "logarithmic") == "engineering";
+  if (axis.has("strain") && column.name.find("_strain") == std::string::npos) {
+    axis.inert("strain", fmt::format("column '{}' is no strain", a.run));
   }
+  a.relative_to_first = axis.flag_or("relative_to_first", false);
+  if (csv) csv->numbers(a.data, axis.mark("data"));
   axis.finish();
   return a;
 }
@@ -97,9 +101,12 @@ void read_compare(Reader entry, const SingleRun& single, const std::vector<Colum
     Reader rows(*where, entry.path("where"));
     c.where_column = rows.text("column", "the name of a column of the data file");
     c.where_value = rows.number("equals", "-");
-    if (csv && csv->find(c.where_column) < 0) {
-      input::fail(rows.mark("column"), fmt::format("the data file has no column '{}'", c.where_column),
-                  input::did_you_mean(c.where_column, csv->names));
+    if (csv) {
+      const auto& values = csv->columns[std::size_t(csv->numbers(c.where_column, rows.mark("column")))];
+      const auto selected = [&](double v) { return std::abs(v - c.where_value) <= 1e-9 * std::abs(c.where_value); };
+      if (std::none_of(values.begin(), values.end(), selected))
+        input::fail(rows.mark("equals"), fmt::format("no row has {} = {}", c.where_column, c.where_value),
+                    "the comparison would be empty");
     }
     rows.finish();
   }
@@ -128,13 +135,14 @@ void read_expect(Reader entry, const SingleRun& single, const std::vector<Column
     e.at = Expectation::At::value;
     e.at_column = at->entries[0].key;
     const Column& column = find_column(columns, e.at_column, at->entries[0].key_mark);
+    e.at_unit = column.unit;
     e.at_value = input::quantity(at->entries[0].value, entry.path("at") + "." + e.at_column, column.unit);
   } else {
     e.at = entry.word_or("at", {"end", "peak"}, "end") == "end" ? Expectation::At::end : Expectation::At::peak;
   }
   const Node& value = entry.need("value", "the expected value with its unit");
   const Node& within =
-      entry.need("within", "how far off it may be: a bare number is relative, one with a unit absolute");
+      entry.need("within", "how far off it may be: a bare number is relative (0.01 for 1 %), one with a unit absolute");
   e.because = entry.text_or("because", "");
   entry.finish();
   if (!mine) return;

@@ -27,6 +27,22 @@ double interpolate(const std::vector<double>& xs, const std::vector<double>& ys,
   return std::nan("");
 }
 
+/// The same at the last crossing: where a run waits at one x, its settled value is the one to compare.
+double interpolate_last(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  for (std::size_t i = xs.size(); i-- > 0;) {
+    if (xs[i] == x) return ys[i];
+    if (i > 0 && (xs[i - 1] - x) * (xs[i] - x) < 0) return interpolate({xs[i - 1], xs[i]}, {ys[i - 1], ys[i]}, x);
+  }
+  return interpolate(xs, ys, x);
+}
+
+/// A value of the data in the unit, sign and measure of the run.
+double in_si(const Axis& axis, const std::vector<double>& column, std::size_t i) {
+  const double raw = column[i] - (axis.relative_to_first ? column.front() : 0);
+  const double value = raw * axis.factor + axis.offset;
+  return axis.engineering ? std::log1p(value) : value;
+}
+
 }  // namespace
 
 ExpectationResult evaluate(const Expectation& e, const RunRecord& record) {
@@ -66,20 +82,21 @@ ComparisonResult evaluate(const Comparison& c, const RunRecord& record) {
     // written decimals of a key column: equal to round-off of a decimal
     if (where >= 0 && std::abs(csv.columns[std::size_t(where)][i] - c.where_value) > 1e-9 * std::abs(c.where_value))
       continue;
-    const double x = xs[i] * c.x.factor + c.x.offset, y = ys[i] * c.y.factor + c.y.offset;
+    const double x = in_si(c.x, xs, i), y = in_si(c.y, ys, i);
     result.x.push_back(x);
     result.y.push_back(y);
     result.largest = std::max(result.largest, std::abs(y));
     sizes.push_back(std::abs(y));
-    const double model = interpolate(run_x, run_y, x);
+    const double model = interpolate_last(run_x, run_y, x);
     if (std::isnan(model)) continue;
     ++result.used;
     squares += (model - y) * (model - y);
   }
   result.rms = result.used > 0 ? std::sqrt(squares / double(result.used)) : std::nan("");
   if (sizes.size() > 2) {
-    result.response = classify(sizes);
-    result.peak = sizes[peak_index(sizes)];
+    const bool classified = !record.response.empty();
+    if (classified) result.response = classify(sizes);
+    result.peak = sizes[classified ? peak_index(sizes) : largest_index(sizes)];
     result.residual = sizes.back();
   }
   return result;
@@ -108,13 +125,12 @@ ResultRow summarise(const ElementTest& test, const RunRecord& record,
   const double residual = record.at(record.rows() - 1, std::size_t(c));
   row.peak = readable(record.peak.value, unit);
   row.residual = readable(residual, unit);
-  const bool classified = test.kind == Kind::simple_shear || test.kind == Kind::triaxial;
-  if (row.response.empty()) row.response = classified ? record.response : "-";
+  if (row.response.empty()) row.response = record.response.empty() ? "-" : record.response;
   for (const auto& m : comparisons) {
     if (m.comparison.run != record.name || m.comparison.y.run != test.main_quantity || m.used == 0) continue;
     if (m.comparison.role == "model") continue;
-    row.reference = fmt::format("{}: peak {}, end {}, {}", m.comparison.label, readable(m.peak, unit),
-                                readable(m.residual, unit), m.response);
+    row.reference = fmt::format("{}: peak {}, end {}{}{}", m.comparison.label, readable(m.peak, unit),
+                                readable(m.residual, unit), m.response.empty() ? "" : ", ", m.response);
     row.difference =
         fmt::format("rms {:.0f} %{}{}", 100 * m.rms / m.largest, m.response == record.response ? "" : ", class differs",
                     m.comparison.role == "fitted"        ? ", e0 fitted"
@@ -125,13 +141,25 @@ ResultRow summarise(const ElementTest& test, const RunRecord& record,
   for (const auto& e : expectations) {
     const auto& x = e.expectation;
     if (x.run != record.name || x.column != test.main_quantity) continue;
-    const std::string where = x.at == Expectation::At::end    ? "residual"
-                              : x.at == Expectation::At::peak ? "peak"
-                                                              : fmt::format("at {} {:.4g}", x.at_column, x.at_value);
-    row.reference = fmt::format("{} {}", where, readable(x.value, unit));
-    row.difference = x.relative ? (std::abs(e.difference) < 5e-5 ? fmt::format("{:+.1e}", e.difference)
-                                                                 : fmt::format("{:+.2f} %", 100 * e.difference))
-                                : readable(e.difference, unit);
+    const std::string value = readable(x.value, unit);
+    switch (x.at) {
+      case Expectation::At::end:
+        row.reference = "residual " + value;
+        break;
+      case Expectation::At::peak:
+        row.reference = "peak " + value;
+        break;
+      case Expectation::At::value:
+        row.reference = fmt::format("{} at {} = {}", value, x.at_column, readable(x.at_value, x.at_unit));
+        break;
+    }
+    if (!x.relative) {
+      row.difference = readable(e.difference, unit);
+    } else if (std::abs(e.difference) < 5e-5) {  // a percentage would show nothing
+      row.difference = e.difference == 0 ? "0" : fmt::format("{:+.1e}", e.difference);
+    } else {
+      row.difference = fmt::format("{:+.2f} %", 100 * e.difference);
+    }
     return row;
   }
   row.reference = "-";

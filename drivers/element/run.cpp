@@ -61,20 +61,20 @@ double seconds() {
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-IntegratorSettings settings_for(const ElementTest& test) {
+IntegratorSettings settings_for(const ElementTest& test, const std::function<bool(double, double)>& heartbeat) {
   // The first step spans a strain of 1e-5: small against every strain scale of a granular law, so that no first trial
   // can jump over its initial response.
   const Tensor<double>& l = test.control.pattern;
   const double rate =
       test.control.rate.largest() * std::sqrt(l.xx * l.xx + l.yy * l.yy + l.zz * l.zz + l.xz * l.xz + l.zx * l.zx);
-  return {test.integration.method, test.integration.fixed_step, rate > 0 ? 1e-5 / rate : 0};
+  return {test.integration.method, test.integration.fixed_step, rate > 0 ? 1e-5 / rate : 0, heartbeat};
 }
 
 /// Walks an integrator over the rows, restarting at every kink of the programme.
 class Walk {
  public:
-  Walk(const ElementTest& test, const AnyPoint& point)
-      : integrator(point.ode, settings_for(test)),
+  Walk(const ElementTest& test, const AnyPoint& point, const std::function<bool(double, double)>& heartbeat = {})
+      : integrator(point.ode, settings_for(test, heartbeat)),
         y(point.initial),
         kinks(test.control.rate.kinks(test.until.time)),
         t_end(test.until.time) {
@@ -154,7 +154,7 @@ Extremum locate(const ElementTest& test, const AnyPoint& point, const Path& path
   Extremum e{point.columns[column].name, point.columns[column].unit, maximum, 0,
              std::vector<double>(point.columns.size())};
   const double t0 = path.times[i - 1], t1 = path.times[i + 1];
-  const double dt = 1e-5 * (t1 - t0);
+  const double dt = 3e-4 * (t1 - t0);  // balances round-off against curvature
   Walk walk(test, point);
   const auto state_at = [&](double t) {
     walk.restart_from(t0, path.states[i - 1]);
@@ -204,19 +204,24 @@ std::string cause_in_words(const ElementTest& test, const Integrator& integrator
         test.integration.fixed_step);
   }
   if (!test.control.held.empty()) {
+    if (norm(test.initial_stress) == 0) return "no velocity gradient gives the prescribed stress";
     return "the prescribed stress cannot be held any more (loss of controllability): the skeleton has softened or lost "
            "its contacts; control the strain instead";
   }
   return integrator.failure();
 }
 
-/// Stress at every row for another accuracy, for the estimate of the global error.
-std::vector<SymTensor<double>> companion(ElementTest test, const std::vector<double>& times) {
+/// Rows at which the companion run is compared: all of a short run, the first few and about a hundred of a long one.
+bool compared(std::size_t row, std::size_t rows) { return row < 20 || row + 1 == rows || row % (rows / 100 + 1) == 0; }
+
+/// Stress at some rows for another accuracy: ten times the tolerance, or half the fixed step.
+std::vector<SymTensor<double>> companion(ElementTest test, const std::vector<double>& times,
+                                         const std::function<bool(double, double)>& heartbeat) {
   test.integration.rtol *= 10;
   test.integration.atol *= 10;
-  test.integration.fixed_step *= 2;
+  test.integration.fixed_step /= 2;
   const AnyPoint point = make_point(test);
-  Walk walk(test, point);
+  Walk walk(test, point, heartbeat);
   std::vector<SymTensor<double>> list;
   for (const double t : times) {
     if (!walk.to(t)) break;
@@ -227,120 +232,175 @@ std::vector<SymTensor<double>> companion(ElementTest test, const std::vector<dou
 
 }  // namespace
 
-RunRecord run(const ElementTest& test, const Hooks& hooks) {
+namespace {
+
+RunRecord run_point(const ElementTest& test, const Hooks& hooks) {
   RunRecord record;
   record.name = test.run;
-  if (test.kind == Kind::point) {
-    evaluate_point(test, record.columns, record.values);
-    record.method = "none";
-    record.state_form = "stress";
-    if (hooks.row) hooks.row(record, record.values.data());
-    for (const double v : record.values) {
-      if (std::isnan(v)) record.status = Status::failed, record.failure = "the law gives no finite value at this point";
-    }
-    return record;
+  evaluate_point(test, record.columns, record.values);
+  record.method = "none";
+  record.state_form = "stress";
+  if (hooks.row) hooks.row(record, record.values.data());
+  if (std::any_of(record.values.begin(), record.values.end(), [](double v) { return std::isnan(v); })) {
+    record.status = Status::failed;
+    record.failure = "the law gives no finite value at this point";
+  }
+  return record;
+}
+
+/// One run in progress: the record, and what is needed to look back at the path.
+class Progressing {
+ public:
+  Progressing(const ElementTest& t, const Hooks& h)
+      : test(t),
+        hooks(h),
+        point(make_point(t)),
+        walk(test, point, [this](double at, double step) { return beat(at, step); }) {
+    record.name = test.run;
+    record.columns = point.columns;
+    record.method = info(test.integration.method).name;
+    record.state_form = point.state_form;
+    record.values.reserve(test.row_times.size() * point.columns.size());
+    p0 = pressure_at(0, walk.y);
   }
 
-  const AnyPoint point = make_point(test);
-  record.columns = point.columns;
-  record.method = info(test.integration.method).name;
-  record.state_form = point.state_form;
-  record.values.reserve(test.row_times.size() * point.columns.size());
-  const std::size_t width = point.columns.size();
-  const auto pressure_at = [&](double t, const std::vector<double>& y) { return pressure(point.stress(t, y.data())); };
-  Path path;
-  std::vector<SymTensor<double>> stresses;
+  RunRecord finish() {
+    for (std::size_t r = 0; r < test.row_times.size() && record.status == Status::done && !condition_met; ++r) row(r);
+    record.solver_ms = 1e3 * solving;
+    record.counters = walk.integrator.counters();
+    if (test.integration.error_estimate && record.status == Status::done) estimate_error();
+    find_peak();
+    return std::move(record);
+  }
 
-  double solving = 0;
-  Walk walk(test, point);
-  const double p0 = pressure_at(0, walk.y);
-  bool stop = false;
-  for (std::size_t r = 0; r < test.row_times.size() && !stop; ++r) {
+ private:
+  bool beat(double t, double step) {
+    if (hooks.progress) hooks.progress(test.until.time > 0 ? t / test.until.time : 1, step);
+    return !(hooks.interrupted && hooks.interrupted());
+  }
+  double pressure_at(double t, const std::vector<double>& y) { return pressure(point.stress(t, y.data())); }
+
+  void row(std::size_t r) {
     double t = test.row_times[r];
     const double from = seconds();
     const bool reached = walk.to(t);
     solving += seconds() - from;
-    if (!reached) {
-      record.status = Status::failed;
-      t = walk.integrator.t_reached();
-    } else if (test.until.pressure_ratio && r > 0) {
-      const auto excess = [&](const std::vector<double>& y, double at) {
-        return pressure_at(at, y) - *test.until.pressure_ratio * p0;
-      };
-      const double before = excess(path.states.back(), path.times.back()), after = excess(walk.y, t);
-      if (before > 0 && after <= 0) {
-        const double t0 = path.times.back();
-        const auto before_it = path.states.back();
-        t = root(t0, t, before, after, [&](double at) {
-          walk.restart_from(t0, before_it);
-          walk.to(at);
-          return excess(walk.y, at);
-        });
-        walk.restart_from(t0, before_it);
-        walk.to(t);
-        stop = true;
-      }
+    if (!reached) return end(walk.integrator.t_reached());
+    if (test.until.pressure_ratio && r > 0) t = stop_at_pressure(t);
+    if (!write(t, r) || !beat(t, walk.integrator.last_step())) end(t);
+  }
+
+  /// Appends a row; false when its values are not to be believed.
+  bool write(double t, std::size_t r) {
+    const std::size_t width = point.columns.size();
+    record.values.resize(record.values.size() + width);
+    double* values = record.values.data() + record.values.size() - width;
+    const auto [sigma, why] = point.observe(t, walk.y.data(), values);
+    for (std::size_t bit = 0; bit < record.admit.size(); ++bit) record.admit[bit] += (why >> bit) & 1;
+    if (std::any_of(values, values + width, [](double v) { return std::isnan(v); })) {
+      record.values.resize(record.values.size() - width);
+      broken = true;
+      return false;
     }
-    if (reached) {
-      record.values.resize(record.values.size() + width);
-      double* row = record.values.data() + record.values.size() - width;
-      point.observe(t, walk.y.data(), row);
-      const unsigned why = point.reasons(t, walk.y.data());
-      for (std::size_t bit = 0; bit < record.rows_flagged.size(); ++bit) record.rows_flagged[bit] += (why >> bit) & 1;
-      bool finite = true;
-      for (std::size_t c = 0; c < width; ++c) finite = finite && !std::isnan(row[c]);
-      if (!finite || (why & not_finite) != 0) {
-        record.values.resize(record.values.size() - width);
-        record.status = Status::failed;
-      } else {
-        path.times.push_back(t);
-        path.states.push_back(walk.y);
-        if (test.integration.error_estimate) stresses.push_back(point.stress(t, walk.y.data()));
-        if (hooks.row) hooks.row(record, row);
-      }
+    path.times.push_back(t);
+    path.states.push_back(walk.y);
+    if (test.integration.error_estimate && compared(r, test.row_times.size())) {
+      stresses.push_back(sigma);
+      compared_times.push_back(t);
     }
-    if (record.status == Status::failed) {
-      record.failure = fmt::format("run '{}' stopped at t = {:.6g} s; last good state: {}; likely cause: {}",
-                                   record.name, t, state_in_words(record), cause_in_words(test, walk.integrator));
-      break;
-    }
-    if (hooks.interrupted && hooks.interrupted()) {
+    largest_stress = std::max(largest_stress, norm(sigma));
+    if (hooks.row) hooks.row(record, values);
+    broken = (why & not_finite) != 0;
+    return !broken;
+  }
+
+  void end(double t) {
+    if (!broken && hooks.interrupted && hooks.interrupted()) {
       record.status = Status::interrupted;
       record.failure = fmt::format("run '{}' was interrupted at t = {:.6g} s", record.name, t);
-      break;
+      return;
     }
-    if (hooks.progress && r % 16 == 0)
-      hooks.progress(double(r + 1) / double(test.row_times.size()), walk.integrator.last_step());
-  }
-  record.solver_ms = 1e3 * solving;
-  record.counters = walk.integrator.counters();
-  record.admitted = point.admitted();
-
-  if (test.integration.error_estimate && record.status == Status::done && !stresses.empty()) {
-    const auto other = companion(test, path.times);
-    double largest = 0, worst = other.size() < stresses.size() ? 1 : 0;
-    for (const auto& s : stresses) largest = std::max(largest, norm(s));
-    for (std::size_t i = 0; i < std::min(other.size(), stresses.size()); ++i)
-      worst = std::max(worst, norm(stresses[i] - other[i]) / largest);
-    record.global_error_estimate = largest > 0 ? worst : 0;
+    if (!broken && walk.integrator.failure().empty()) return;  // the heartbeat only asked
+    record.status = Status::failed;
+    record.failure = fmt::format("run '{}' stopped at t = {:.6g} s; last good state: {}; likely cause: {}", record.name,
+                                 t, state_in_words(record), cause_in_words(test, walk.integrator));
   }
 
-  const int main_column = record.column(test.main_quantity);
-  if (main_column >= 0 && record.rows() > 0) {
-    auto v = record.series(test.main_quantity);
-    for (auto& x : v) x = std::abs(x);
-    const std::size_t top = peak_index(v);
-    const auto c = std::size_t(main_column);
-    if (top > 0 && top + 1 < v.size()) {
+  /// The instant before t at which the pressure falls to the share asked for, or t.
+  double stop_at_pressure(double t) {
+    const auto excess = [&](double at) { return pressure_at(at, walk.y) - *test.until.pressure_ratio * p0; };
+    const double after = excess(t), t0 = path.times.back();
+    const auto start = path.states.back();
+    const double before = pressure_at(t0, start) - *test.until.pressure_ratio * p0;
+    if (!(before > 0 && after <= 0)) return t;
+    const auto go = [&](double at) {
+      walk.restart_from(t0, start);
+      walk.to(at);
+    };
+    t = root(t0, t, before, after, [&](double at) {
+      go(at);
+      return excess(at);
+    });
+    go(t);
+    condition_met = true;
+    return t;
+  }
+
+  void estimate_error() {
+    const auto other =
+        companion(test, compared_times, [this](double, double) { return !(hooks.interrupted && hooks.interrupted()); });
+    double worst = other.size() < stresses.size() ? largest_stress : 0;
+    for (std::size_t i = 0; i < other.size(); ++i) worst = std::max(worst, norm(stresses[i] - other[i]));
+    const auto& method = info(test.integration.method);
+    if (method.fixed_step) {  // Richardson: the difference from half the step is a part of the error
+      const double gain = std::pow(2.0, method.order);
+      worst *= gain / (gain - 1);
+    }
+    record.global_error_estimate = largest_stress > 0 ? worst / largest_stress : 0;
+    if (method.fixed_step && !(record.global_error_estimate < 0.5)) {
+      record.status = Status::failed;
+      record.failure = fmt::format(
+          "run '{}' cannot be believed: half the step changes the stress by {:.3g} of its largest value; last state: "
+          "{}; "
+          "likely cause: {}",
+          record.name, record.global_error_estimate, state_in_words(record), cause_in_words(test, walk.integrator));
+    }
+  }
+
+  void find_peak() {
+    const int column = record.column(test.main_quantity);
+    if (column < 0 || record.rows() == 0) return;
+    const auto c = std::size_t(column);
+    auto sizes = record.series(test.main_quantity);
+    for (auto& x : sizes) x = std::abs(x);
+    const std::size_t top = test.has_response_class() ? peak_index(sizes) : largest_index(sizes);
+    if (top > 0 && top + 1 < sizes.size()) {
       record.peak = locate(test, point, path, c, top, record.at(top, c) > 0);
     } else {
+      const auto begin = record.values.begin() + std::ptrdiff_t(top * record.columns.size());
       record.peak = {record.columns[c].name, record.columns[c].unit, true, record.at(top, c),
-                     std::vector<double>(record.values.begin() + std::ptrdiff_t(top * width),
-                                         record.values.begin() + std::ptrdiff_t((top + 1) * width))};
+                     std::vector<double>(begin, begin + std::ptrdiff_t(record.columns.size()))};
     }
-    record.response = classify(v);
+    if (test.has_response_class()) record.response = classify(sizes);
   }
-  return record;
+
+  const ElementTest& test;
+  const Hooks& hooks;
+  AnyPoint point;
+  Walk walk;
+  RunRecord record;
+  Path path;
+  std::vector<SymTensor<double>> stresses;
+  std::vector<double> compared_times;
+  double p0 = 0, largest_stress = 0, solving = 0;
+  bool condition_met = false, broken = false;
+};
+
+}  // namespace
+
+RunRecord run(const ElementTest& test, const Hooks& hooks) {
+  if (test.kind == Kind::point) return run_point(test, hooks);
+  return Progressing(test, hooks).finish();
 }
 
 std::vector<Extremum> extrema(const ElementTest& test, const std::string& column) {

@@ -31,7 +31,7 @@ struct RunRecord {
   Counters counters;
   double solver_ms = 0;               ///< wall time of the integration alone, without output
   double global_error_estimate = -1;  ///< of the stress, relative to its largest size on the path; -1: not asked for
-  std::array<std::size_t, reason_names.size()> rows_flagged{}, admitted{};
+  std::array<std::size_t, reason_names.size()> admit{};  ///< how often admit would have fired, over the rows
   Extremum peak;
   std::string response;  ///< liquefaction, softening, limited liquefaction, dilative
 

@@ -24,6 +24,9 @@ bool is_sweep(const Node& node) {
                                             [](const Node& n) { return n.is_map() || n.is_sequence(); });
 }
 
+void collect_in_maps(const Node& node, const std::string& key, bool names_runs, std::vector<std::size_t>& path,
+                     std::vector<List>& lists);
+
 void collect(const Node& node, const std::string& key, bool names_runs, std::vector<std::size_t>& path,
              std::vector<List>& lists) {
   if (node.is_map()) {
@@ -37,11 +40,18 @@ void collect(const Node& node, const std::string& key, bool names_runs, std::vec
       input::fail(node.mark, fmt::format("'{}' is an empty list", key), "give at least one value");
     lists.push_back({path, key, &node, names_runs});
   } else if (node.is_sequence()) {
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-      path.push_back(i);
-      collect(node.items[i], key, names_runs, path, lists);
-      path.pop_back();
-    }
+    collect_in_maps(node, key, names_runs, path, lists);
+  }
+}
+
+/// The lists inside a list of maps. A list of lists is a matrix, one value.
+void collect_in_maps(const Node& node, const std::string& key, bool names_runs, std::vector<std::size_t>& path,
+                     std::vector<List>& lists) {
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (!node.items[i].is_map()) continue;
+    path.push_back(i);
+    collect(node.items[i], key, names_runs, path, lists);
+    path.pop_back();
   }
 }
 
@@ -74,7 +84,7 @@ std::vector<SingleRun> expand(const Node& file) {
       const auto& [key, mark, value] = file.entries[i];
       std::vector<std::size_t> path{i};
       if (key == "material" || key == "test" || key == "integrator") collect(value, key, true, path, lists);
-      if (key == "compare" || key == "expect") collect(value, key, false, path, lists);
+      if (key == "compare" || key == "expect") collect_in_maps(value, key, false, path, lists);
       if (key == "sweep") {
         if (!value.is_scalar() || (value.text != "zip" && value.text != "product")) {
           input::fail(value.mark, fmt::format("sweep is {}", input::describe(value)),
@@ -105,7 +115,9 @@ std::vector<SingleRun> expand(const Node& file) {
     if (multiplied || length == runs) continue;
     if (naming == 0) {
       input::fail(lists[i].node->mark, fmt::format("'{}' is a list of {} but there is one run", lists[i].key, length),
-                  "lists here follow the runs: give one value, or a list in the test");
+                  fmt::format("lists here follow the runs: give one value, or a list in the test; --set '{}=[]' drops "
+                              "all of it",
+                              file.entries[lists[i].path[0]].key));
     }
     input::fail(lists[i].node->mark,
                 fmt::format("'{}' has {} values but '{}' makes {} runs", lists[i].key, length, lists[0].key, runs),

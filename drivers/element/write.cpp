@@ -87,16 +87,19 @@ CsvWriter::~CsvWriter() {
   }
 }
 
-void CsvWriter::row(const std::vector<Column>& columns, const double* values) {
-  if (!header_written) {
-    buffer = head;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (i > 0) buffer += ',';
-      buffer += columns[i].header();
-    }
-    buffer += '\n';
-    header_written = true;
+void CsvWriter::header(const std::vector<Column>& columns) {
+  if (header_written) return;
+  header_written = true;
+  buffer = head;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (i > 0) buffer += ',';
+    buffer += columns[i].header();
   }
+  buffer += '\n';
+}
+
+void CsvWriter::row(const std::vector<Column>& columns, const double* values) {
+  header(columns);
   // the shortest decimal that reads back to the same double: at most 17 significant digits
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) buffer += ',';
@@ -114,7 +117,8 @@ void CsvWriter::flush() {
   buffer.clear();
 }
 
-void CsvWriter::close() {
+void CsvWriter::close(const std::vector<Column>& columns) {
+  header(columns);  // of a run that failed before its first row
   flush();
   const int failed = std::fclose(out);
   out = nullptr;
@@ -188,8 +192,7 @@ void write_results(const fs::path& dir, const ElementFile& file, const FileOutco
              ? Json(nullptr)
              : Json{{"column", r.peak.column}, {"unit", r.peak.unit}, {"value", finite(r.peak.value)}, {"at", at}}},
         {"final", final_row},
-        {"admit", counts(r.admitted)},
-        {"rows_flagged", counts(r.rows_flagged)}};
+        {"admit", counts(r.admit)}};
     runs.push_back(std::move(run));
   }
 
@@ -246,9 +249,9 @@ void write_results(const fs::path& dir, const ElementFile& file, const FileOutco
   }
   notes.emplace_back(
       "The error estimate is the largest difference of the stress along the path from a companion run with a ten times "
-      "larger "
-      "tolerance (twice the step for fixed steps), relative to the largest stress; it is an upper estimate for the run "
-      "shown.");
+      "larger tolerance, hence an upper estimate; for fixed steps it is extrapolated from half the step. It is "
+      "relative to the "
+      "largest stress.");
   Json summary{{"program", "grainlaw"},
                {"version", program_version},
                {"commit", program_commit},

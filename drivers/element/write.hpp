@@ -21,9 +21,10 @@ class CsvWriter {
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
   void row(const std::vector<Column>& columns, const double* values);
-  void close();
+  void close(const std::vector<Column>& columns);
 
  private:
+  void header(const std::vector<Column>& columns);
   void flush();
   std::FILE* out;
   std::filesystem::path path;

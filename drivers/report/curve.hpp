@@ -37,6 +37,9 @@ class Frame {
   /// Where the point lies in the unit square; not finite when it cannot be drawn.
   Point place(const Point& point) const;
 
+  /// The smallest values along both axes, in decades on a logarithmic axis.
+  Point low() const { return low_; }
+
   /// The extent of the data along both axes, in decades on a logarithmic axis.
   Point extent() const { return {high_.x - low_.x, high_.y - low_.y}; }
 

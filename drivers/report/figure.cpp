@@ -53,7 +53,8 @@ Axis read_axis(const Json& figure, const std::string& key) {
           .unit = text(axis, "unit"),
           .scale = number(axis, "scale", 1.0),
           .log = text(figure, "log").find(key) != std::string::npos,
-          .tics = 0.0};
+          .tics = 0.0,
+          .from_zero = false};
 }
 
 /// The values of a series along one axis: the axis's column by name, or the series's own by number from 1.
@@ -121,6 +122,9 @@ Figure read_figure(const Json& json, const std::filesystem::path& dir, CsvCache&
   // gnuplot's own choice can crowd long labels such as -0.008 until they touch.
   if (!figure.x.log) figure.x.tics = round_tics(frame.extent().x);
   if (!figure.y.log) figure.y.tics = round_tics(frame.extent().y);
+  const auto noise = [](double low, double extent) { return low < 0.0 && -low < 0.02 * extent; };
+  figure.x.from_zero = !figure.x.log && noise(frame.low().x, frame.extent().x);
+  figure.y.from_zero = !figure.y.log && noise(frame.low().y, frame.extent().y);
   for (Series& series : figure.series) {
     series.curve =
         series.markers ? thin_markers(series.curve, frame, marker_limit) : thin_line(series.curve, frame, line_limit);
@@ -134,6 +138,7 @@ std::string axis_commands(const Axis& axis, char name) {
   std::string out =
       fmt::format("set {}label {} noenhanced{}\n", name, quoted(label), name == 'x' ? " offset 0,0.3" : "");
   if (axis.log) out += fmt::format("set logscale {0}\nset format {0} '10^{{%T}}'\n", name);
+  if (axis.from_zero) out += fmt::format("set {}range [0:*]\n", name);
   if (axis.tics > 0.0) out += fmt::format("set {}tics {:.6g}\n", name, axis.tics);
   return out;
 }

@@ -20,6 +20,7 @@ struct Axis {
   double scale = 1.0;
   bool log = false;
   double tics = 0.0;
+  bool from_zero = false;  // a trace of noise below zero does not deserve a tic
 };
 
 /// One line or set of markers, in plotted units and thinned.

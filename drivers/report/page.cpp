@@ -153,12 +153,16 @@ std::string figures(const Part& part, std::size_t& counter) {
 }
 
 std::string comparisons(const Json& summary) {
-  Table table({"run", "compared with", "points", "rms difference", "class", "counts as", "note"});
+  Table table(
+      {"run", "quantity", "compared with", "points", "rms difference", "of largest", "class", "counts as", "note"});
   for (const Json& entry : list(summary, "compare")) {
-    Cell role;
-    if (entry.contains("validation")) role.html = entry.value("validation", false) ? "validation" : "comparison only";
-    table.add({cell(entry, "run"), cell(entry, "label"), cell(entry, "points"),
-               quantity(entry, "rms", text(entry, "unit")), cell(entry, "class"), role, cell(entry, "note")});
+    Cell share;
+    if (const auto of = entry.find("rms_of_largest"); of != entry.end() && of->is_number()) {
+      share = {fmt::format("{:.1f} %", 100 * of->get<double>()), true, ""};
+    }
+    table.add({cell(entry, "run"), cell(entry, "column"), cell(entry, "label"), cell(entry, "points"),
+               quantity(entry, "rms", text(entry, "unit"), 3), share, cell(entry, "class"), cell(entry, "role"),
+               cell(entry, "note")});
   }
   return table.html();
 }
