@@ -54,8 +54,7 @@ struct Bagnold {
   }
   template <class R>
   constexpr Admitted<State<R>, R> admit(const Flow<R>& flow, const State<R>& state) const noexcept {
-    const R size = size_of(flow.L);
-    return {state, real::flag<R>(!real::is_finite(size), not_finite)};
+    return {state, real::flag<R>(!(size_of(flow.L) < real::largest_rate<R>()), not_finite)};
   }
   template <class R>
   constexpr R wave_speed(const Flow<R>& flow, const State<R>& /*state*/, const R& density) const noexcept {

@@ -14,7 +14,8 @@ namespace grainlaw {
 /// Inputs   compaction rho/rho_ref - 1 [-], t [Pa].   Output   I_e, D_c, e_crt, a [-]
 /// Valid    e_min <= e and e_crt(t) > e_min. I_e = 1 is the critical state in triaxial compression only;
 ///          see critical_states.hpp for the other modes.
-/// Fails    never: where e < e_min, D_c is held at 1; near the pole e_crt = e_min the difference is held at 1e-6.
+/// Fails    never: an empty space (compaction -1) has a large void ratio; where e < e_min, D_c is held at 1; near the
+/// pole e_crt = e_min the difference is held at 1e-6.
 ///          Both are reported by `admit` as beyond_validity.
 struct CriticalState {
   Constant e_min, p1, p2, p3, q1, q2, q3;
@@ -35,7 +36,8 @@ struct CriticalState {
 
   template <Real R>
   constexpr R void_ratio(const R& compaction) const {
-    return (e_ref - compaction) / (Constant(1) + compaction);
+    const R c = real::at_least<R>(compaction, Constant(narrowest - 1).as<R>());
+    return (e_ref - c) / (Constant(1) + c);
   }
   template <Real R>
   constexpr R a(const R& t) const {
@@ -57,7 +59,8 @@ struct CriticalState {
   }
   template <Real R>
   constexpr mask_t<R> outside(const R& compaction, const R& t) const {
-    return void_ratio(compaction) < e_min.as<R>() || e_crt(t) < (e_min + Constant(narrowest).as<R>());
+    return compaction < Constant(narrowest - 1).as<R>() || void_ratio(compaction) < e_min.as<R>() ||
+           e_crt(t) < (e_min + Constant(narrowest).as<R>());
   }
   template <Real R, class Sink>
   constexpr void observe(const R& compaction, const R& t, Sink&& sink) const {

@@ -44,9 +44,10 @@ struct Elastic {
     return {sigma};
   }
   template <class R>
-  constexpr Admitted<State<R>, R> admit(const Flow<R>& /*flow*/, const State<R>& state) const noexcept {
-    const R size = norm(state.sigma);
-    return {state, real::flag<R>(!real::is_finite(size), not_finite)};
+  constexpr Admitted<State<R>, R> admit(const Flow<R>& flow, const State<R>& state) const noexcept {
+    const mask_t<R> usable =
+        size_of(flow.L) < real::largest_rate<R>() && size_of(state.sigma) < real::largest_stress<R>();
+    return {state, real::flag<R>(!usable, not_finite)};
   }
   template <class R>
   constexpr R wave_speed(const Flow<R>& /*flow*/, const State<R>& state, const R& density) const noexcept {

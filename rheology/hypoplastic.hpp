@@ -112,8 +112,7 @@ struct Hypoplastic {
       const mask_t<R> low = p < p_floor.as<R>();
       const mask_t<R> pulls = p < R(0) || !(Constant(3) * p * p > J2) || !(p * (p * p - J2) > J3);
       const mask_t<R> rest = J2 == R(0) && p >= p_floor.as<R>() && p >= R(0);  // zero stress is admissible
-      const R size = p + J2;
-      const mask_t<R> broken = !real::is_finite(size);
+      const mask_t<R> broken = !(size_of(state.sigma) < real::largest_stress<R>()) || too_fast(flow);
       bits_t<R> reasons = real::flag<R>(low, pressure_floor) | real::flag<R>(pulls && !rest, tension) |
                           real::flag<R>(broken, not_finite);
       if constexpr (on<Critical>) {
@@ -123,7 +122,8 @@ struct Hypoplastic {
       Admitted<State<R>, R> result{state, reasons};
       const mask_t<R> mend = (low || (pulls && !rest)) && !broken;
       if (real::any<R>(mend)) {
-        const R q = real::at_least<R>(p, p_floor.as<R>());
+        // a little above the floor, so that the rounding of the trace does not put it below again
+        const R q = real::select<R>(low, p_floor * R(1 + 16 * std::numeric_limits<scalar_t<R>>::epsilon()), p);
         const R keep = kept_deviator(q, J2, J3);
         result.state.sigma = choose<R>(mend, plus_isotropic<R>(keep * s, -q), state.sigma);
       }
@@ -137,8 +137,8 @@ struct Hypoplastic {
                                          : R(-std::numeric_limits<scalar_t<R>>::infinity());
       const mask_t<R> low = state.ln_trace < lowest;
       const mask_t<R> pulls = !(third > J2) || !(third * (third * third - J2) > J3);
-      const R size = state.ln_trace + J2;
-      const mask_t<R> broken = !real::is_finite(size);
+      const mask_t<R> broken = !(state.ln_trace < largest_ln<R>()) || !real::is_finite(state.ln_trace) ||
+                               !(size_of(s) < real::largest_stress<R>()) || too_fast(flow);
       bits_t<R> reasons =
           real::flag<R>(low, pressure_floor) | real::flag<R>(pulls, tension) | real::flag<R>(broken, not_finite);
       if constexpr (on<Critical>) {
@@ -208,6 +208,15 @@ struct Hypoplastic {
   }
 
  private:
+  /// Just below the logarithm of largest_stress.
+  template <class R>
+  static constexpr R largest_ln() {
+    return R(sizeof(scalar_t<R>) == 8 ? scalar_t<R>(230) : scalar_t<R>(27.5f));
+  }
+  template <class R>
+  static constexpr mask_t<R> too_fast(const Flow<R>& flow) {
+    return !(size_of(flow.L) < real::largest_rate<R>()) || !(real::abs(flow.compaction) < real::largest_stress<R>());
+  }
   template <class R>
   static constexpr SymTensor<R> stress_of(const State<R>& state) {
     if constexpr (std::is_same_v<Form, StressForm>) {

@@ -22,7 +22,7 @@ enum Reason : unsigned {
   pressure_floor = 1,   ///< pressure below the floor, lifted
   tension = 2,          ///< a principal stress was not compressive, deviator scaled back
   beyond_validity = 4,  ///< outside the range in which the formulas mean anything, clamped
-  not_finite = 8,       ///< NaN or infinity came in; nothing is repaired
+  not_finite = 8,       ///< NaN, infinity or numbers whose products overflow came in; nothing is repaired
   too_many_steps = 16,  ///< `advance` gave up before the end of the step
 };
 inline constexpr std::array<std::string_view, 5> reason_names{"pressure_floor", "tension", "beyond_validity",

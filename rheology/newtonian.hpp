@@ -41,12 +41,14 @@ struct Newtonian {
   }
   template <class R>
   constexpr Admitted<State<R>, R> admit(const Flow<R>& flow, const State<R>& state) const noexcept {
-    const R size = size_of(flow.L) + real::abs(flow.compaction);
-    return {state, real::flag<R>(!real::is_finite(size), not_finite)};
+    const mask_t<R> usable =
+        size_of(flow.L) < real::largest_rate<R>() && real::abs(flow.compaction) < real::largest_stress<R>();
+    return {state, real::flag<R>(!usable, not_finite)};
   }
   template <class R>
-  constexpr R wave_speed(const Flow<R>& /*flow*/, const State<R>& /*state*/, const R& density) const noexcept {
-    return real::sqrt<R>(K / density);
+  constexpr R wave_speed(const Flow<R>& flow, const State<R>& /*state*/, const R& density) const noexcept {
+    // dp/d(rho) = K/rho_ref, and rho_ref = density/(1 + compaction)
+    return real::sqrt<R>(K * real::at_least<R>(Constant(1) + flow.compaction, R(0)) / density);
   }
   template <class R>
   constexpr R viscosity(const Flow<R>& /*flow*/, const State<R>& /*state*/) const noexcept {

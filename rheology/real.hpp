@@ -131,6 +131,15 @@ constexpr mask_t<R> is_finite(const R& x) {
   return abs(x) <= R(std::numeric_limits<scalar_t<R>>::max());
 }
 
+/// Largest stress whose cube, and largest rate whose square times a stress, stay finite: `admit` flags what is beyond.
+template <Real R>
+constexpr R largest_stress() {
+  return R(sizeof(scalar_t<R>) == 8 ? scalar_t<R>(1e100) : scalar_t<R>(1e12f));
+}
+template <Real R>
+constexpr R largest_rate() {
+  return R(sizeof(scalar_t<R>) == 8 ? scalar_t<R>(1e145) : scalar_t<R>(1e18f));
+}
 /// Smallest magnitude by which a law divides: below it the reciprocal would overflow.
 template <Real R>
 constexpr R tiny() {

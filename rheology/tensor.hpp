@@ -53,7 +53,11 @@ constexpr void each(Tensor<R>& a, F&& f) {
   f(a.xx), f(a.xy), f(a.xz), f(a.yx), f(a.yy), f(a.yz), f(a.zx), f(a.zy), f(a.zz);
 }
 
-/// Sum of |A_ij|: finite exactly when every component is.
+/// Sum of the sizes of the components: finite exactly when every one is.
+template <class R>
+constexpr R size_of(const SymTensor<R>& a) {
+  return real::abs(a.xx) + real::abs(a.yy) + real::abs(a.zz) + real::abs(a.yz) + real::abs(a.xz) + real::abs(a.xy);
+}
 template <class R>
 constexpr R size_of(const Tensor<R>& a) {
   R sum(0);

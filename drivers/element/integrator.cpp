@@ -41,7 +41,7 @@ const MethodInfo& info(Method method) {
 namespace {
 
 constexpr long steps_per_call = 5000;  // then it is asked whether the time still moves
-constexpr int most_retries = 12;         // each one divides the step by four: 4^12 = 1.7e7
+constexpr int most_retries = 12;       // each one divides the step by four: 4^12 = 1.7e7
 
 /// Which family of SUNDIALS calls a method needs.
 enum class Family { cvode, erk };

@@ -109,7 +109,7 @@ std::optional<ParameterValue> value_of_set(const auto& row, const NamedSet* set)
     Reader parameters(*set->tree.find("parameters"), "parameters");
     if (const auto given = parameters.maybe_number(row.name, row.unit, {.low = row.low, .high = row.high})) {
       value.value = *given;
-      value.source = set->source.empty() ? set->name : set->source;
+      value.source = set->name;
       return value;
     }
   }

@@ -114,7 +114,8 @@ void read_compare(Reader entry, const SingleRun& single, const std::vector<Colum
   c.y = read_axis(entry.map("y"), columns, csv ? &*csv : nullptr);
   entry.finish();
   if (!csv) {
-    const std::string note = fmt::format("'{}' ({}) is not there: no comparison with it", data, c.label);
+    const std::string note = fmt::format("'{}' ({}) is not there{}{}", data, c.label,
+                                         c.note.empty() ? ": no comparison with it" : ": ", c.note);
     if (std::find(file.notes.begin(), file.notes.end(), note) == file.notes.end()) file.notes.push_back(note);
     return;
   }

@@ -156,7 +156,7 @@ ResultRow summarise(const ElementTest& test, const RunRecord& record,
     if (!x.relative) {
       row.difference = readable(e.difference, unit);
     } else if (std::abs(e.difference) < 5e-5) {  // a percentage would show nothing
-      row.difference = e.difference == 0 ? "0" : fmt::format("{:+.1e}", e.difference);
+      row.difference = std::abs(e.difference) < 1e-14 ? "0" : fmt::format("{:+.1e}", e.difference);
     } else {
       row.difference = fmt::format("{:+.2f} %", 100 * e.difference);
     }

@@ -243,6 +243,8 @@ void write_results(const fs::path& dir, const ElementFile& file, const FileOutco
                           {"varies", varies}});
   }
   std::vector<std::string> notes = file.notes;
+  if (!first.material.source.empty())
+    notes.push_back(fmt::format("Material {}: {}", first.material.name, first.material.source));
   if (first.integration.chosen_automatically && first.kind != Kind::point) {
     notes.push_back(fmt::format("The integrator was chosen automatically: {} ({}).",
                                 info(first.integration.method).name, info(first.integration.method).description));
