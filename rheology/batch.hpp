@@ -86,10 +86,10 @@ class Tail {
 };
 
 template <class T, class L>
-GRAINLAW_ONE_BODY void rate_of_packs(const L& shared, const FlowColumns<T>& flow, const StateColumns<L, T>& state,
-                                     const StateColumns<L, T>& out, std::size_t n) noexcept {
+GRAINLAW_ONE_BODY void rate_of_packs(const L& shared, FlowColumns<T> flow, StateColumns<L, T> state,
+                                     StateColumns<L, T> out, std::size_t n) noexcept {
   using P = PackOf<T>;
-  const L law = shared;  // a copy on the stack cannot alias the columns
+  const L law = shared;  // by value, like the columns: nothing that is stored can alias a copy on the stack
   for (std::size_t i = 0; i < n; i += std::size_t(RealTraits<P>::lanes)) {
     const auto y = load_state<typename L::template State<P>, P>(state, i);
     store_state<P>(law.rate(load_flow<P, T>(flow, i), y), out, i);
@@ -113,8 +113,8 @@ void rate(const L& law, const FlowColumns<T>& flow, const StateColumns<L, T>& st
 }
 
 template <class T, class L>
-GRAINLAW_ONE_BODY void stress_of_packs(const L& shared, const FlowColumns<T>& flow, const StateColumns<L, T>& state,
-                                       const Columns<T, 6>& out, std::size_t n) noexcept {
+GRAINLAW_ONE_BODY void stress_of_packs(const L& shared, FlowColumns<T> flow, StateColumns<L, T> state,
+                                       Columns<T, 6> out, std::size_t n) noexcept {
   using P = PackOf<T>;
   const L law = shared;
   for (std::size_t i = 0; i < n; i += std::size_t(RealTraits<P>::lanes)) {
@@ -145,8 +145,8 @@ void stress(const L& law, const FlowColumns<T>& flow, const StateColumns<L, T>& 
 using Counts = std::array<std::size_t, reason_names.size()>;
 
 template <class T, class L>
-GRAINLAW_ONE_BODY void admit_packs(const L& shared, const FlowColumns<T>& flow, const StateColumns<L, T>& state,
-                                   std::size_t n, std::size_t counted_lanes, Counts& fired) noexcept {
+GRAINLAW_ONE_BODY void admit_packs(const L& shared, FlowColumns<T> flow, StateColumns<L, T> state, std::size_t n,
+                                   std::size_t counted_lanes, Counts& fired) noexcept {
   using P = PackOf<T>;
   const L law = shared;
   for (std::size_t i = 0; i < n; i += std::size_t(RealTraits<P>::lanes)) {

@@ -22,6 +22,7 @@ struct ScalarTraits {
   static constexpr int lanes = 1;
   static constexpr T sqrt(T x) { return std::sqrt(x); }
   static constexpr T log(T x) { return std::log(x); }
+  static constexpr T abs(T x) { return std::bit_cast<T>(std::bit_cast<B>(x) & (B(-1) >> 1)); }
   static constexpr T select(bool m, T a, T b) { return m ? a : b; }
   static constexpr bool any(bool m) { return m; }
   static constexpr B flag(bool m, B bit) { return m ? bit : B(0); }
@@ -122,7 +123,7 @@ constexpr R at_most(const R& x, const std::type_identity_t<R>& bound) {
 }
 template <Real R>
 constexpr R abs(const R& x) {
-  return select<R>(x < R(0), -x, x);
+  return RealTraits<R>::abs(x);
 }
 
 /// Neither NaN nor infinite.

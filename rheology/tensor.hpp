@@ -156,11 +156,13 @@ constexpr R shear_rate(const SymTensor<R>& d) {
 /// x^3 - J2 x - J3, by Newton from above, where it converges monotonically.
 template <Real R>
 constexpr R largest_of_deviator(const R& J2, const R& J3) {
+  // the root of round-off: below it the slope says nothing
+  constexpr auto near_double = sizeof(scalar_t<R>) == 8 ? scalar_t<R>(1e-7) : scalar_t<R>(1e-3f);
   const R safe_J2 = real::at_least<R>(J2, real::tiny<R>());
   const R lowest = real::sqrt(Constant(1.0 / 3) * safe_J2);  // the root itself where it is double; never above it
   R x = Constant(2) * lowest;                                // never below the root
   for (int i = 0; i < 40; ++i) {
-    const R slope = real::at_least<R>(Constant(3) * x * x - safe_J2, Constant(1e-9) * safe_J2);
+    const R slope = real::at_least<R>(Constant(3) * x * x - safe_J2, R(near_double) * safe_J2);
     // at a double root value and slope are both round-off: the bound catches what their quotient throws out
     x = real::at_least<R>(x - (x * (x * x - safe_J2) - J3) / slope, lowest);
   }
