@@ -6,6 +6,11 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 
+if [[ $# -gt 1 || ( $# -eq 1 && $1 != test ) ]]; then
+  echo "setup: unknown argument '$*'; usage: ./setup.sh [test]" >&2
+  exit 2
+fi
+
 packages=(g++ cmake ninja-build git ccache gnuplot-nox
   libeigen3-dev libsundials-dev libyaml-cpp-dev libcli11-dev libfmt-dev nlohmann-json3-dev catch2)
 
@@ -15,7 +20,10 @@ for package in "${packages[@]}"; do
 done
 if ((${#missing[@]})); then
   echo "setup: installing ${missing[*]}"
-  if ((EUID == 0)); then as_root=(); elif command -v sudo >/dev/null; then as_root=(sudo); else
+  as_root=()
+  if ((EUID != 0)) && command -v sudo >/dev/null; then
+    as_root=(sudo)
+  elif ((EUID != 0)); then
     echo "setup: run as root, or install them yourself: apt-get install ${missing[*]}" >&2
     exit 2
   fi
@@ -29,17 +37,10 @@ echo "setup: building into build/release"
 cmake --preset release >/dev/null
 cmake --build --preset release
 
-case "${1:-}" in
-  "")
-    echo "setup: running the main job"
-    ./build/release/grainlaw element data/element/undrained_simple_shear.yaml data/element/annular_shear_cell.yaml \
-      data/element/karlsruhe_undrained_triaxial.yaml
-    ;;
-  test)
-    ctest --preset release
-    ;;
-  *)
-    echo "setup: unknown argument '$1'; usage: ./setup.sh [test]" >&2
-    exit 2
-    ;;
-esac
+if [[ ${1:-} == test ]]; then
+  ctest --preset release
+else
+  echo "setup: running the main job"
+  ./build/release/grainlaw element data/element/undrained_simple_shear.yaml data/element/annular_shear_cell.yaml \
+    data/element/karlsruhe_undrained_triaxial.yaml
+fi

@@ -45,6 +45,8 @@ struct Newtonian {
         size_of(flow.L) < real::largest_rate<R>() && real::abs(flow.compaction) < real::largest_stress<R>();
     return {state, real::flag<R>(!usable, not_finite)};
   }
+  /// The compaction at which the pressure at rest is p.
+  constexpr double compaction_at(double p) const noexcept { return p / K.value; }
   template <class R>
   constexpr R wave_speed(const Flow<R>& flow, const State<R>& /*state*/, const R& density) const noexcept {
     // dp/d(rho) = K/rho_ref, and rho_ref = density/(1 + compaction)

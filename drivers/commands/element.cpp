@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <ctime>
 #include <map>
@@ -152,6 +153,12 @@ void print_outcome(const ElementFile& file, const FileOutcome& outcome) {
     for (const auto& x : e) {
       if (x.met) continue;
       const auto& want = x.expectation;
+      if (std::isnan(x.got)) {
+        fmt::print(
+            "    NOT MET {}: {}: the run never reaches {}\n", want.run, want.column,
+            want.at == Expectation::At::value ? fmt::format("{} = {:.6g}", want.at_column, want.at_value) : "its end");
+        continue;
+      }
       fmt::print("    NOT MET {}: {} = {:.9g} {}, expected {:.9g} {} ({}: {:.3g}, allowed {:.3g}){}{}\n", want.run,
                  want.column, x.got, want.unit, want.value, want.unit,
                  want.relative ? "relative difference" : "difference", x.difference, want.within,
@@ -222,8 +229,12 @@ int element(const ElementOptions& options) {
     if (!options.quiet) fmt::print("report: {}\n", (out / "report.html").string());
   } else {
     std::error_code none;  // a report of earlier results would lie
-    fs::remove(out / "report.html", none);
-    for (const auto& folder : folders) fs::remove(folder / "report.html", none);
+    auto stale = folders;
+    stale.push_back(out);
+    for (const auto& folder : stale) {
+      fs::remove(folder / "report.html", none);
+      fs::remove_all(folder / "plots", none);
+    }
     if (!options.quiet) fmt::print("results: {}\n", (out / "summary.json").string());
   }
   return code;

@@ -64,7 +64,6 @@ struct ElementTest {
   std::string kind_name;
   Material material;
   std::optional<double> void_ratio;
-  std::optional<double> density;  ///< rho/rho_ref - 1 comes from it where a law has an equation of state
   SymTensor<double> initial_stress{};
   double compaction = 0;
   Control control;
@@ -72,8 +71,9 @@ struct ElementTest {
   std::vector<double> row_times;
   Columns columns;
   Integration integration;
-  double axial_sign = 1;      ///< triaxial: -1 compression, +1 extension
-  std::string main_quantity;  ///< column whose peak and residual the tables show
+  double axial_sign = 1;                  ///< triaxial: -1 compression, +1 extension
+  std::string main_quantity;              ///< column whose peak and residual the tables show
+  std::vector<std::string> peaks_wanted;  ///< other columns whose peak an expectation names
   std::vector<std::string> notes, warnings;
 
   /// Liquefaction, softening and dilation are words for shearing at constant volume.

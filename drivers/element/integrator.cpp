@@ -357,7 +357,9 @@ bool Integrator::fixed_advance(double t, double* y) {
     if (!fine || (ode.acceptable && !ode.acceptable(ode.self, at + h, good, y))) {
       std::copy(good, good + n, y);
       reached = at;
-      failure_text = stop ? "stopped" : "the fixed step is beyond the stability limit of this law";
+      failure_text = stop    ? "stopped"
+                     : !fine ? "the law has no rate at the states tried"
+                             : "the fixed step is beyond the stability limit of this law";
       return false;
     }
   }

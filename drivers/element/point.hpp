@@ -278,7 +278,10 @@ class Point {
   bool solve_free(double t, Flow<double>& flow, State& state) {
     const std::size_t n = control.held.size();
     const Flow<double> base = flow;
-    const double scale = norm(symmetric(base.L));
+    // at a reversal the ramp passes zero to round-off only
+    const double loading = norm(symmetric(base.L)),
+                 rest = 1e-13 * control.rate.largest() * norm(symmetric(control.pattern));
+    const double scale = loading > rest ? loading : 0;
     if (scale == 0 && carries_stress) {
       std::fill(guess.begin(), guess.end(), 0.0);
       double f[3];
@@ -290,6 +293,8 @@ class Point {
     Eigen::Vector3d w = Eigen::Vector3d::Zero(), f = w, g = w;
     Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
     std::copy(guess.begin(), guess.end(), w.data());
+    // the last solution may belong to a much faster flow
+    if constexpr (carries_stress) w = w.cwiseMax(-5 * unit).cwiseMin(5 * unit);
     for (int iteration = 0; iteration < 60; ++iteration) {
       mismatch(t, w.data(), base, flow, state, f.data());
       for (Eigen::Index c = 0; c < Eigen::Index(n); ++c) {

@@ -75,16 +75,17 @@ class TestReader {
     const Node* k_v = material.find("k_v");
     const bool by_formula = k_v && k_v->is_map();  // Bagnold's formula needs the spacing of the grains
     if (!value && (needs.void_ratio || by_formula)) {
-      const Node* initial = reader.node().find("initial");
-      input::fail(initial && !beside ? initial->mark : reader.node().mark,
-                  fmt::format("'{}' is missing: {} depends on the void ratio",
-                              beside ? "test.void_ratio" : "test.initial.void_ratio",
-                              needs.void_ratio ? fmt::format("law '{}'", law) : "Bagnold's formula for k_v"),
-                  "give void_ratio [-] or solid_fraction [-], for example 'void_ratio: 0.845'");
+      if (!beside)
+        reader.need("initial", "the state before loading, for example 'initial: {pressure: 100 kPa, void_ratio: 0.8}'");
+      Reader place = beside ? reader : reader.map("initial");
+      place.known({"pressure", "stress"});
+      place.missing("void_ratio",
+                    fmt::format("'{}' is missing: {} depends on the void ratio", place.path("void_ratio"),
+                                needs.void_ratio ? fmt::format("law '{}'", law) : "Bagnold's formula for k_v"),
+                    "give void_ratio [-] or solid_fraction [-], for example 'void_ratio: 0.845'");
     }
-    if (value && !needs.void_ratio && !by_formula && test.kind != Kind::annular_shear_cell) {
-      Reader place =
-          beside && (reader.has("void_ratio") || reader.has("solid_fraction")) ? reader : reader.map("initial");
+    if (value && !needs.void_ratio && !by_formula && !beside) {
+      Reader place = reader.map("initial");
       place.inert(place.has("void_ratio") ? "void_ratio" : "solid_fraction",
                   fmt::format("law '{}' does not depend on the density", law));
     }
@@ -143,16 +144,20 @@ class TestReader {
     return s;
   }
 
-  /// `pressure` or `stress` of one map; a law without history starts from a compaction instead.
+  /// `pressure` or `stress` of one map; a law without history starts from the compaction that belongs to it.
   void read_stress_of(Reader& map) {
-    const std::string history =
-        fmt::format("law '{}' has no stress history: its stress follows from compaction and rate", law);
     if (!needs.stress) {
-      for (const char* key : {"pressure", "stress"}) {
-        if (map.has(key) && test.kind != Kind::annular_shear_cell) map.inert(key, history);
-        map.known({key});
+      if (test.kind == Kind::annular_shear_cell) map.known({"pressure", "stress"});
+      if (!map.has("pressure") && !map.has("stress")) {
+        map.known({"pressure", "stress"});
+        test.compaction = map.number_or("compaction", "-", 0, {.low = -1, .high = 1e3, .low_open = true});
+        return;
       }
-      test.compaction = map.number_or("compaction", "-", 0, {.low = -1, .high = 1e3, .low_open = true});
+      map.inert("compaction", "the pressure gives it");
+      const input::Mark mark = map.mark(map.has("stress") ? "stress" : "pressure");
+      const SymTensor<double> sigma =
+          map.has("stress") ? read_stress(map.map("stress")) : isotropic(-map.number("pressure", "Pa"));
+      compact_to(sigma, mark);
       return;
     }
     map.inert("compaction", fmt::format("law '{}' carries its stress: give pressure or stress", law));
@@ -165,7 +170,28 @@ class TestReader {
     }
   }
 
+  /// The compaction at which a law without history has this stress at rest.
+  void compact_to(const SymTensor<double>& sigma, const input::Mark& mark) {
+    const double p = pressure(sigma);
+    bool possible = p == 0;
+    with_law(test.material, 0, StateForm::stress, [&](const auto& chosen, const auto&) {
+      if constexpr (requires { chosen.compaction_at(p); }) {
+        test.compaction = chosen.compaction_at(p);
+        possible = std::isfinite(test.compaction) && test.compaction > -1;
+      }
+    });
+    if (!possible && test.kind != Kind::annular_shear_cell) {
+      input::fail(mark, fmt::format("law '{}' has no stress at rest that would be {} Pa", law, p),
+                  "its stress follows from the rate alone: leave it out");
+    }
+    if (von_mises(sigma) > 1e-12 * std::abs(p)) {
+      input::fail(mark, fmt::format("law '{}' is a fluid: at rest it carries no shear stress", law),
+                  "give an isotropic stress or a pressure");
+    }
+  }
+
   void read_initial() {
+    if (law == "elastic" && !reader.has("initial")) return;  // from zero stress
     if (!reader.has("initial") && !needs.stress) {
       reader.known({"initial"});
       return;
@@ -254,6 +280,7 @@ class TestReader {
         }
       } else {
         normal = reader.number("normal_stress", "Pa", input::positive);
+        if (!reader.has("initial")) compact_to(isotropic(-normal), reader.mark("normal_stress"));
       }
       test.control.held = {2};
       test.control.held_stress.zz = -normal;
@@ -344,6 +371,8 @@ class TestReader {
                  fmt::format("law '{}' has no density of its own: give stress, void_ratio or compaction", law));
     if (reader.has("initial")) {
       read_initial();
+    } else if (law == "elastic" && !reader.has("stress") && !reader.has("pressure")) {
+      reader.known({"stress", "pressure"});  // zero
     } else {
       read_stress_of(reader);
       check_start(reader.node().mark);

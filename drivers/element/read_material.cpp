@@ -237,8 +237,8 @@ Material read_material(Reader reader, const MaterialChoice& choice, std::optiona
       } else if (auto otherwise = value_of_set(row, set)) {
         value = std::move(*otherwise);
       } else {
-        input::fail(reader.node().mark, fmt::format("{} is missing for law '{}'", reader.path(name), material.law),
-                    describe_row(row));
+        reader.missing(set || name != "c1" ? name : "use",
+                       fmt::format("{} is missing for law '{}'", reader.path(name), material.law), describe_row(row));
       }
       material.parameters.push_back(std::move(value));
     });

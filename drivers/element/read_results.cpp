@@ -122,7 +122,7 @@ void read_compare(Reader entry, const SingleRun& single, const std::vector<Colum
   if (mine) file.comparisons.push_back(std::move(c));
 }
 
-void read_expect(Reader entry, const SingleRun& single, const std::vector<Column>& columns,
+void read_expect(Reader entry, const SingleRun& single, ElementTest& test, const std::vector<Column>& columns,
                  const std::vector<SingleRun>& runs, ElementFile& file) {
   Expectation e;
   e.run = single.name;
@@ -140,6 +140,9 @@ void read_expect(Reader entry, const SingleRun& single, const std::vector<Column
     e.at_value = input::quantity(at->entries[0].value, entry.path("at") + "." + e.at_column, column.unit);
   } else {
     e.at = entry.word_or("at", {"end", "peak"}, "end") == "end" ? Expectation::At::end : Expectation::At::peak;
+    if (e.at == Expectation::At::peak && test.kind == Kind::point) {
+      input::fail(entry.mark("at"), "a point test has no path and no peak", "expected 'at: end'");
+    }
   }
   const Node& value = entry.need("value", "the expected value with its unit");
   const Node& within =
@@ -148,14 +151,16 @@ void read_expect(Reader entry, const SingleRun& single, const std::vector<Column
   entry.finish();
   if (!mine) return;
   e.value = input::quantity(value, entry.path("value"), e.unit);
-  e.relative = input::unit_typed(within).empty();
+  const std::string within_unit = input::unit_typed(within);
+  e.relative = within_unit.empty() || within_unit == "%";
   e.within = input::quantity(within, entry.path("within"), e.relative ? "-" : e.unit, input::not_negative);
+  if (e.at == Expectation::At::peak && e.column != test.main_quantity) test.peaks_wanted.push_back(e.column);
   file.expectations.push_back(std::move(e));
 }
 
 }  // namespace
 
-void read_results(const SingleRun& single, const ElementTest& test, const std::filesystem::path& beside,
+void read_results(const SingleRun& single, ElementTest& test, const std::filesystem::path& beside,
                   const std::vector<SingleRun>& runs, ElementFile& file) {
   Reader root(single.tree, "");
   auto compares = root.maps("compare");
@@ -163,7 +168,7 @@ void read_results(const SingleRun& single, const ElementTest& test, const std::f
   if (compares.empty() && expects.empty()) return;
   const auto columns = columns_of(test);
   for (auto& entry : compares) read_compare(entry, single, columns, beside, runs, file);
-  for (auto& entry : expects) read_expect(entry, single, columns, runs, file);
+  for (auto& entry : expects) read_expect(entry, single, test, columns, runs, file);
 }
 
 }  // namespace grainlaw::element

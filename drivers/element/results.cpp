@@ -53,9 +53,16 @@ ExpectationResult evaluate(const Expectation& e, const RunRecord& record) {
     case Expectation::At::end:
       result.got = record.at(record.rows() - 1, std::size_t(c));
       break;
-    case Expectation::At::peak:
-      if (!record.peak.row.empty()) result.got = record.peak.row[std::size_t(c)];
+    case Expectation::At::peak: {
+      const auto named = std::find_if(record.peaks.begin(), record.peaks.end(),
+                                      [&](const Extremum& p) { return p.column == e.column; });
+      if (record.peak.column == e.column) {
+        result.got = record.peak.value;
+      } else if (named != record.peaks.end()) {
+        result.got = named->value;
+      }
       break;
+    }
     case Expectation::At::value:
       result.got = interpolate(record.series(e.at_column), record.series(e.column), e.at_value);
       break;
@@ -94,7 +101,9 @@ ComparisonResult evaluate(const Comparison& c, const RunRecord& record) {
   }
   result.rms = result.used > 0 ? std::sqrt(squares / double(result.used)) : std::nan("");
   if (sizes.size() > 2) {
-    const bool classified = !record.response.empty();
+    // a class belongs to the main quantity along the strain path
+    const bool classified =
+        !record.response.empty() && c.y.run == record.peak.column && c.x.run.find("strain") != std::string::npos;
     if (classified) result.response = classify(sizes);
     result.peak = sizes[classified ? peak_index(sizes) : largest_index(sizes)];
     result.residual = sizes.back();
@@ -128,6 +137,7 @@ ResultRow summarise(const ElementTest& test, const RunRecord& record,
   if (row.response.empty()) row.response = record.response.empty() ? "-" : record.response;
   for (const auto& m : comparisons) {
     if (m.comparison.run != record.name || m.comparison.y.run != test.main_quantity || m.used == 0) continue;
+    if (test.has_response_class() && m.response.empty()) continue;
     if (m.comparison.role == "model") continue;
     row.reference = fmt::format("{}: peak {}, end {}{}{}", m.comparison.label, readable(m.peak, unit),
                                 readable(m.residual, unit), m.response.empty() ? "" : ", ", m.response);
@@ -140,7 +150,7 @@ ResultRow summarise(const ElementTest& test, const RunRecord& record,
   }
   for (const auto& e : expectations) {
     const auto& x = e.expectation;
-    if (x.run != record.name || x.column != test.main_quantity) continue;
+    if (x.run != record.name || x.column != test.main_quantity || std::isnan(e.got)) continue;
     const std::string value = readable(x.value, unit);
     switch (x.at) {
       case Expectation::At::end:

@@ -107,7 +107,8 @@ class Walk {
   std::size_t next_kink = 0;
 };
 
-/// The instant in [t0, t1] where g changes sign (Illinois; falls back to bisection by construction).
+/// The instant in [t0, t1] where g changes sign: false position, the weight of the end that stays halved every time,
+/// and a bisection now and then.
 template <class G>
 double root(double t0, double t1, double g0, double g1, const G& g) {
   for (int i = 0; i < 100 && t1 - t0 > 1e-14 * std::max(std::abs(t0), std::abs(t1)); ++i) {
@@ -197,7 +198,8 @@ std::string state_in_words(const RunRecord& record) {
 }
 
 std::string cause_in_words(const ElementTest& test, const Integrator& integrator) {
-  if (info(test.integration.method).fixed_step) {
+  const bool refused = integrator.failure().find("stability") != std::string::npos || integrator.failure().empty();
+  if (info(test.integration.method).fixed_step && refused) {
     return fmt::format(
         "the fixed step of {:.3g} s is beyond the stability limit of this law: make it smaller or use an "
         "error-controlled method",
@@ -241,7 +243,7 @@ RunRecord run_point(const ElementTest& test, const Hooks& hooks) {
   record.method = "none";
   record.state_form = "stress";
   if (hooks.row) hooks.row(record, record.values.data());
-  if (std::any_of(record.values.begin(), record.values.end(), [](double v) { return std::isnan(v); })) {
+  if (std::any_of(record.values.begin(), record.values.end(), [](double v) { return !std::isfinite(v); })) {
     record.status = Status::failed;
     record.failure = "the law gives no finite value at this point";
   }
@@ -269,7 +271,7 @@ class Progressing {
     record.solver_ms = 1e3 * solving;
     record.counters = walk.integrator.counters();
     if (test.integration.error_estimate && record.status == Status::done) estimate_error();
-    find_peak();
+    find_peaks();
     return std::move(record);
   }
 
@@ -367,21 +369,24 @@ class Progressing {
     }
   }
 
-  void find_peak() {
-    const int column = record.column(test.main_quantity);
-    if (column < 0 || record.rows() == 0) return;
-    const auto c = std::size_t(column);
-    auto sizes = record.series(test.main_quantity);
+  /// The largest size of a column, or the first peak of the main quantity of an undrained test.
+  Extremum peak_of(const std::string& name) {
+    const auto c = std::size_t(record.column(name));
+    auto sizes = record.series(name);
     for (auto& x : sizes) x = std::abs(x);
-    const std::size_t top = test.has_response_class() ? peak_index(sizes) : largest_index(sizes);
-    if (top > 0 && top + 1 < sizes.size()) {
-      record.peak = locate(test, point, path, c, top, record.at(top, c) > 0);
-    } else {
-      const auto begin = record.values.begin() + std::ptrdiff_t(top * record.columns.size());
-      record.peak = {record.columns[c].name, record.columns[c].unit, true, record.at(top, c),
-                     std::vector<double>(begin, begin + std::ptrdiff_t(record.columns.size()))};
-    }
-    if (test.has_response_class()) record.response = classify(sizes);
+    const bool first = name == test.main_quantity && test.has_response_class();
+    const std::size_t top = first ? peak_index(sizes) : largest_index(sizes);
+    if (name == test.main_quantity && first) record.response = classify(sizes);
+    if (top > 0 && top + 1 < sizes.size()) return locate(test, point, path, c, top, record.at(top, c) > 0);
+    const auto begin = record.values.begin() + std::ptrdiff_t(top * record.columns.size());
+    return {record.columns[c].name, record.columns[c].unit, true, record.at(top, c),
+            std::vector<double>(begin, begin + std::ptrdiff_t(record.columns.size()))};
+  }
+
+  void find_peaks() {
+    if (record.rows() == 0) return;
+    if (record.column(test.main_quantity) >= 0) record.peak = peak_of(test.main_quantity);
+    for (const auto& name : test.peaks_wanted) record.peaks.push_back(peak_of(name));
   }
 
   const ElementTest& test;

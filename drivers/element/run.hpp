@@ -32,8 +32,9 @@ struct RunRecord {
   double solver_ms = 0;               ///< wall time of the integration alone, without output
   double global_error_estimate = -1;  ///< of the stress, relative to its largest size on the path; -1: not asked for
   std::array<std::size_t, reason_names.size()> admit{};  ///< how often admit would have fired, over the rows
-  Extremum peak;
-  std::string response;  ///< liquefaction, softening, limited liquefaction, dilative
+  Extremum peak;                                         ///< of the main quantity
+  std::vector<Extremum> peaks;                           ///< of the columns that the test asked for
+  std::string response;                                  ///< liquefaction, softening, limited liquefaction, dilative
 
   std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
   double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }

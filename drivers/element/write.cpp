@@ -51,6 +51,45 @@ Json counts(const std::array<std::size_t, reason_names.size()>& fired) {
   return object;
 }
 
+Json runs_of(const FileOutcome& outcome, const std::string& prefix, const std::string& folder) {
+  Json runs = Json::array();
+  for (const auto& r : outcome.records) {
+    Json final_row = Json::object(), at = Json::object();
+    if (r.rows() > 0) {
+      for (std::size_t c = 0; c < r.columns.size(); ++c)
+        final_row[r.columns[c].header()] = finite(r.at(r.rows() - 1, c));
+    }
+    for (std::size_t c = 0; c < r.columns.size() && c < r.peak.row.size(); ++c) {
+      const auto& name = r.columns[c].name;
+      if (name == "time" || name == "shear_strain" || name == "axial_strain" || name == "pressure")
+        at[r.columns[c].header()] = finite(r.peak.row[c]);
+    }
+    Json run{
+        {"name", prefix + r.name},
+        {"csv", folder + file_stem(r.name) + ".csv"},
+        {"status", word(r.status)},
+        {"failure", r.failure},
+        {"method", r.method},
+        {"state", r.state_form},
+        {"rhs_evaluations", r.counters.rhs_evaluations},
+        {"steps", r.counters.steps},
+        {"rejected_steps", r.counters.rejected},
+        {"retries", r.counters.retries},
+        {"solver_ms", r.solver_ms},
+        {"global_error_estimate", r.global_error_estimate < 0 ? Json(nullptr) : finite(r.global_error_estimate)},
+        {"rows", r.rows()},
+        {"class", r.response},
+        {"peak",
+         r.peak.row.empty()
+             ? Json(nullptr)
+             : Json{{"column", r.peak.column}, {"unit", r.peak.unit}, {"value", finite(r.peak.value)}, {"at", at}}},
+        {"final", final_row},
+        {"admit", counts(r.admit)}};
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
 Json table(const std::vector<ResultRow>& rows) {
   Json list = Json::array();
   for (const auto& r : rows) list.push_back({r.run, r.peak, r.residual, r.response, r.reference, r.difference});
@@ -103,7 +142,7 @@ void CsvWriter::row(const std::vector<Column>& columns, const double* values) {
   // the shortest decimal that reads back to the same double: at most 17 significant digits
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) buffer += ',';
-    fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("{}"), values[i]);
+    fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("{}"), values[i] + 0.0);  // + 0.0: no minus before a zero
   }
   buffer += '\n';
   if (buffer.size() > (1 << 16) - 4096 || seconds() - last_flush > 1) flush();
@@ -160,41 +199,7 @@ void write_results(const fs::path& dir, const ElementFile& file, const FileOutco
   save(dir / "as_run.yaml", fmt::format("# {} as understood by grainlaw {}; runs again to the same result\n{}",
                                         file.path.filename().string(), program_version, input::to_yaml(as_run)));
 
-  Json runs = Json::array();
-  for (const auto& r : outcome.records) {
-    Json final_row = Json::object(), at = Json::object();
-    if (r.rows() > 0) {
-      for (std::size_t c = 0; c < r.columns.size(); ++c)
-        final_row[r.columns[c].header()] = finite(r.at(r.rows() - 1, c));
-    }
-    for (std::size_t c = 0; c < r.columns.size() && c < r.peak.row.size(); ++c) {
-      const auto& name = r.columns[c].name;
-      if (name == "time" || name == "shear_strain" || name == "axial_strain" || name == "pressure")
-        at[r.columns[c].header()] = finite(r.peak.row[c]);
-    }
-    Json run{
-        {"name", r.name},
-        {"csv", file_stem(r.name) + ".csv"},
-        {"status", word(r.status)},
-        {"failure", r.failure},
-        {"method", r.method},
-        {"state", r.state_form},
-        {"rhs_evaluations", r.counters.rhs_evaluations},
-        {"steps", r.counters.steps},
-        {"rejected_steps", r.counters.rejected},
-        {"retries", r.counters.retries},
-        {"solver_ms", r.solver_ms},
-        {"global_error_estimate", r.global_error_estimate < 0 ? Json(nullptr) : finite(r.global_error_estimate)},
-        {"rows", r.rows()},
-        {"class", r.response},
-        {"peak",
-         r.peak.row.empty()
-             ? Json(nullptr)
-             : Json{{"column", r.peak.column}, {"unit", r.peak.unit}, {"value", finite(r.peak.value)}, {"at", at}}},
-        {"final", final_row},
-        {"admit", counts(r.admit)}};
-    runs.push_back(std::move(run));
-  }
+  const Json runs = runs_of(outcome, "", "");
 
   Json expects = Json::array();
   for (const auto& e : outcome.expectations) {
@@ -219,6 +224,7 @@ void write_results(const fs::path& dir, const ElementFile& file, const FileOutco
     compares.push_back({{"run", c.comparison.run},
                         {"label", c.comparison.label},
                         {"column", c.comparison.y.run},
+                        {"against", c.comparison.x.run},
                         {"points", c.used},
                         {"rms", finite(c.rms)},
                         {"unit", c.y_unit},
@@ -281,7 +287,8 @@ void write_results(const fs::path& dir, const ElementFile& file, const FileOutco
 void write_combined(const fs::path& dir, const std::vector<ElementFile>& files, const std::vector<fs::path>& folders,
                     const std::vector<FileOutcome>& outcomes, int exit_code) {
   std::vector<ResultRow> rows;
-  Json names = Json::array();
+  Json names = Json::array(), runs = Json::array();
+  std::string inputs;
   double wall = 0, cpu = 0;
   for (std::size_t i = 0; i < files.size(); ++i) {
     names.push_back(folders[i].filename().string());
@@ -289,12 +296,16 @@ void write_combined(const fs::path& dir, const std::vector<ElementFile>& files, 
       row.run = files[i].path.stem().string() + ": " + row.run;
       rows.push_back(std::move(row));
     }
+    const std::string stem = folders[i].filename().string();
+    for (auto& run : runs_of(outcomes[i], stem + ": ", stem + "/")) runs.push_back(std::move(run));
+    inputs += (i > 0 ? " " : "") + files[i].path.filename().string();
     wall += outcomes[i].wall_s;
     cpu += outcomes[i].cpu_s;
   }
   const Json summary{{"program", "grainlaw"},
                      {"version", program_version},
                      {"commit", program_commit},
+                     {"file", inputs},
                      {"kind", "several"},
                      {"title", "Element tests"},
                      {"exit_code", exit_code},
@@ -303,7 +314,7 @@ void write_combined(const fs::path& dir, const std::vector<ElementFile>& files, 
                      {"peak_memory_mb", peak_memory_mb()},
                      {"files", names},
                      {"results", table(rows)},
-                     {"runs", Json::array()}};
+                     {"runs", runs}};
   save(dir / "summary.json", summary.dump(1) + "\n");
 }
 

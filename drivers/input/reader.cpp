@@ -67,14 +67,18 @@ const Node* Reader::find(std::string_view key) {
 
 const Node& Reader::need(std::string_view key, std::string_view what) {
   if (const Node* value = find(key)) return *value;
-  std::string help(what);
+  missing(key, fmt::format("'{}' is missing", path(key)), what);
+}
+
+void Reader::missing(std::string_view key, std::string_view what, std::string_view remedy) const {
+  std::string help(remedy);
   std::vector<std::string> others;
   for (const Node::Entry& entry : tree->entries) {
     if (std::find(asked.begin(), asked.end(), entry.key) == asked.end()) others.push_back(entry.key);
   }
   std::string near = nearest(key, others);
   if (!near.empty()) help += fmt::format(" (is '{}' at {} a misspelling of it?)", near, locate(mark(near)));
-  fail(tree->mark, fmt::format("'{}' is missing", path(key)), help);
+  fail(tree->mark, what, help);
 }
 
 double Reader::number(std::string_view key, std::string_view unit, Range range) {

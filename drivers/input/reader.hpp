@@ -43,6 +43,9 @@ class Reader {
   /// The value of a key; `what` tells the author what to add when it is absent.
   const Node& need(std::string_view key, std::string_view what);
 
+  /// The error of a key that is not there, pointing at a likely misspelling of it.
+  [[noreturn]] void missing(std::string_view key, std::string_view what, std::string_view remedy) const;
+
   double number(std::string_view key, std::string_view unit, Range range = {});
   double number_or(std::string_view key, std::string_view unit, double fallback, Range range = {});
   std::optional<double> maybe_number(std::string_view key, std::string_view unit, Range range = {});

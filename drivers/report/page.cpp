@@ -160,9 +160,9 @@ std::string comparisons(const Json& summary) {
     if (const auto of = entry.find("rms_of_largest"); of != entry.end() && of->is_number()) {
       share = {fmt::format("{:.1f} %", 100 * of->get<double>()), true, ""};
     }
-    table.add({cell(entry, "run"), cell(entry, "column"), cell(entry, "label"), cell(entry, "points"),
-               quantity(entry, "rms", text(entry, "unit"), 3), share, cell(entry, "class"), cell(entry, "role"),
-               cell(entry, "note")});
+    table.add({cell(entry, "run"), cell(entry, "column"), cell(entry, "against"), cell(entry, "label"),
+               cell(entry, "points"), quantity(entry, "rms", text(entry, "unit"), 3), share, cell(entry, "class"),
+               cell(entry, "role"), cell(entry, "note")});
   }
   return table.html();
 }
