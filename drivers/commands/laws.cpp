@@ -15,7 +15,7 @@ using namespace element;
 
 namespace {
 
-std::string number(double v) { return std::isinf(v) ? (v < 0 ? "-inf" : "inf") : fmt::format("{}", v); }
+std::string number(double v) { return std::isinf(v) ? (v < 0 ? "-inf" : "inf") : fmt::format("{:g}", v); }
 
 template <class R>
 void show(R, bool markdown) {
@@ -65,8 +65,10 @@ void show_critical_states(const Material& material) {
     const double high = std::max(s.r.zz, s.r.xx), low = std::min(s.r.zz, s.r.xx);
     const double ratio = shear ? -s.r.xz / s.r.zz : high / low;
     const double angle = shear ? std::atan(ratio) : std::asin((high - low) / (high + low));
-    fmt::print("    {:<22}  {:.6f}  {:.6f}  {:.4f}      {:.6f}\n", mode.name, s.I_star, ratio,
-               angle * 180 / std::numbers::pi, critical_void_ratio(law.critical, s.I_star, 0));
+    const double threshold = critical_void_ratio(law.critical, s.I_star, 0);
+    fmt::print("    {:<22}  {:.6f}  {:.6f}  {:.4f}      {:.6f}{}\n", mode.name, s.I_star, ratio,
+               angle * 180 / std::numbers::pi, threshold,
+               threshold < law.critical.e_min.value ? "  (below e_min: every state liquefies)" : "");
   }
   fmt::print(
       "    (ratio: shear over normal stress, or larger over smaller principal stress; above the void ratio at p = 0\n"

@@ -297,8 +297,8 @@ bool Integrator::adaptive_advance(double t, double* y) {
       failure_text = "stopped";
       return false;
     }
-    const bool long_way = flag == (sundials->kind == Family::cvode ? CV_TOO_MUCH_WORK : ARK_TOO_MUCH_WORK);
-    if (long_way && at - before > 1e-6 * (t - t_from)) continue;
+    // the same number in CVODE and ARKODE
+    if (flag == ARK_TOO_MUCH_WORK && at - before > 1e-6 * (t - t_from)) continue;
     // Explicit ARKODE cannot recover from a trial state that the law refuses: start again with smaller steps.
     const bool inadmissible =
         flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR || flag == ARK_RHSFUNC_FAIL;

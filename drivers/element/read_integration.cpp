@@ -174,6 +174,10 @@ void read_integrator(ElementTest& test, const Node* node, bool mixed, Defaults& 
   Reader reader(node ? *node : empty, "integrator");
   std::vector<std::string> names{"auto"};
   for (const auto& m : methods()) names.push_back(m.name);
+  if (const Node* method = reader.find("method"); method && (method->text == "ida" || method->text == "dirk")) {
+    input::fail(method->mark, fmt::format("integrator.method = '{}' is not available in this version", method->text),
+                "available: " + input::join(names));
+  }
   const std::string name = reader.word_or("method", names, "auto");
   if (!reader.has("method")) defaults.add("integrator.method", "auto");
   if (name == "auto") {

@@ -139,10 +139,11 @@ void CsvWriter::header(const std::vector<Column>& columns) {
 
 void CsvWriter::row(const std::vector<Column>& columns, const double* values) {
   header(columns);
-  // the shortest decimal that reads back to the same double: at most 17 significant digits
+  // 17 significant digits read back to the same double
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) buffer += ',';
-    fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("{}"), values[i] + 0.0);  // + 0.0: no minus before a zero
+    fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("{:.17g}"),
+                   values[i] + 0.0);  // + 0.0: no minus before a zero
   }
   buffer += '\n';
   if (buffer.size() > (1 << 16) - 4096 || seconds() - last_flush > 1) flush();

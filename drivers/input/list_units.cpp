@@ -163,9 +163,9 @@ class Scanner {
 
   void skip_quoted() {
     for (; column < text().size(); ++column) {
-      if (quote == '"' && text()[column] == '\\') {
-        ++column;
-      } else if (quote == '\'' && text().compare(column, 2, "''") == 0) {
+      const bool escaped = quote == '"' && text()[column] == '\\';
+      const bool doubled = quote == '\'' && text().compare(column, 2, "''") == 0;
+      if (escaped || doubled) {
         ++column;
       } else if (text()[column] == quote) {
         quote = 0;
