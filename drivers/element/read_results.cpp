@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../input/csv.hpp"
 #include "../input/reader.hpp"
-#include "csv.hpp"
 #include "run.hpp"
 
 namespace grainlaw::element {
@@ -47,7 +47,7 @@ bool applies(Reader& entry, const SingleRun& single, const std::vector<SingleRun
   return run->text == single.name;
 }
 
-Axis read_axis(Reader axis, const std::vector<Column>& columns, const Csv* csv) {
+Axis read_axis(Reader axis, const std::vector<Column>& columns, const input::Csv* csv) {
   Axis a;
   a.data = axis.text("data", "the name of a column of the data file");
   a.run = axis.text("run", "the name of a column of the run, without its unit");
@@ -90,9 +90,9 @@ void read_compare(Reader entry, const SingleRun& single, const std::vector<Colum
   c.note = entry.text_or("note", "");
   c.file = beside / data;
   std::error_code none;
-  std::optional<Csv> csv;
+  std::optional<input::Csv> csv;
   if (std::filesystem::is_regular_file(c.file, none)) {
-    csv = read_csv(c.file);
+    csv = input::read_csv(c.file);
   } else if (!optional) {
     input::fail(entry.mark("data"), fmt::format("there is no file '{}'", data),
                 "paths are relative to the YAML; `optional: true` makes it a note instead");

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../input/csv.hpp"
 #include "classify.hpp"
-#include "csv.hpp"
 
 namespace grainlaw::element {
 
@@ -77,7 +77,7 @@ ExpectationResult evaluate(const Expectation& e, const RunRecord& record) {
 ComparisonResult evaluate(const Comparison& c, const RunRecord& record) {
   ComparisonResult result;
   result.comparison = c;
-  const Csv csv = read_csv(c.file);
+  const input::Csv csv = input::read_csv(c.file);
   const auto& xs = csv.columns[std::size_t(csv.find(c.x.data))];
   const auto& ys = csv.columns[std::size_t(csv.find(c.y.data))];
   const int where = c.where_column.empty() ? -1 : csv.find(c.where_column);

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <stdexcept>
-#include <string_view>
 
 namespace grainlaw::report {
 namespace {
@@ -18,29 +14,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Fractions of the picture's width: a sixth of a pixel, and most of a marker's diameter.
 constexpr double line_tolerance = 3e-4;
 constexpr double marker_gap = 0.015;
-
-std::string trimmed(std::string_view cell) {
-  constexpr std::string_view blanks = " \t\r\"";
-  const auto first = cell.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(cell.substr(first, cell.find_last_not_of(blanks) - first + 1));
-}
-
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-double to_number(const std::string& cell) {
-  char* end = nullptr;
-  const double value = std::strtod(cell.c_str(), &end);
-  return cell.empty() || *end != '\0' ? not_a_number : value;
-}
 
 double distance(const Point& point, const Point& from, const Point& to) {
   const double dx = to.x - from.x;
@@ -80,27 +53,6 @@ void rank(const Curve& placed, std::size_t first, std::size_t last, std::vector<
 }
 
 }  // namespace
-
-Csv read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot be read");
-  Csv csv;
-  std::string line;
-  while (std::getline(in, line)) {
-    if (line.empty() || line == "\r" || line.front() == '#') continue;
-    const auto cells = split(line);
-    if (csv.header.empty()) {
-      csv.header = cells;
-      csv.columns.resize(cells.size());
-      continue;
-    }
-    for (std::size_t i = 0; i < csv.columns.size(); ++i) {
-      csv.columns[i].push_back(i < cells.size() ? to_number(cells[i]) : not_a_number);
-    }
-  }
-  if (csv.header.empty()) throw std::runtime_error("has no header line");
-  return csv;
-}
 
 bool is_finite(const Point& point) { return std::isfinite(point.x) && std::isfinite(point.y); }
 

@@ -7,15 +7,6 @@
 
 namespace grainlaw::report {
 
-/// The columns of a CSV file: `#` lines first, then one header line.
-struct Csv {
-  std::vector<std::string> header;
-  std::vector<std::vector<double>> columns;
-};
-
-/// Reads a CSV file; cells that are not numbers become NaN; throws std::runtime_error when it cannot be read.
-Csv read_csv(const std::filesystem::path& file);
-
 struct Point {
   double x;
   double y;

@@ -10,6 +10,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "../input/csv.hpp"
+
 namespace grainlaw::report {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr std::size_t marker_limit = 1500;
 // Okabe and Ito's colours, told apart by colour-blind readers; their yellow is too pale for a line on white.
 constexpr std::array palette = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333"};
 
-using CsvCache = std::map<std::string, Csv>;
+using CsvCache = std::map<std::string, input::Csv>;
 
 /// Text that stays on its line.
 std::string on_one_line(std::string text) {
@@ -58,7 +60,7 @@ Axis read_axis(const Json& figure, const std::string& key) {
 }
 
 /// The values of a series along one axis: the axis's column by name, or the series's own by number from 1.
-std::vector<double> read_values(const Csv& csv, const Json& series, const std::string& key, const Axis& axis) {
+std::vector<double> read_values(const input::Csv& csv, const Json& series, const std::string& key, const Axis& axis) {
   const double scale = number(series, key + "_scale", axis.scale);
   const double own = number(series, key, std::nan(""));
   std::size_t index = 0;
@@ -68,9 +70,9 @@ std::vector<double> read_values(const Csv& csv, const Json& series, const std::s
     }
     index = static_cast<std::size_t>(own) - 1;
   } else {
-    const auto found = std::find(csv.header.begin(), csv.header.end(), axis.column);
-    if (found == csv.header.end()) throw std::runtime_error(fmt::format("has no column '{}'", axis.column));
-    index = static_cast<std::size_t>(found - csv.header.begin());
+    const auto found = std::find(csv.names.begin(), csv.names.end(), axis.column);
+    if (found == csv.names.end()) throw std::runtime_error(fmt::format("has no column '{}'", axis.column));
+    index = static_cast<std::size_t>(found - csv.names.begin());
   }
   std::vector<double> values = csv.columns[index];
   for (double& value : values) value *= scale;
@@ -80,7 +82,10 @@ std::vector<double> read_values(const Csv& csv, const Json& series, const std::s
 Curve read_curve(const Json& series, const Figure& figure, CsvCache& cache) {
   const std::string file = text(series, "csv");
   auto found = cache.find(file);
-  if (found == cache.end()) found = cache.emplace(file, read_csv(figure.dir / file)).first;
+  if (found == cache.end() && !std::filesystem::is_regular_file(figure.dir / file)) {
+    throw std::runtime_error("cannot be read");
+  }
+  if (found == cache.end()) found = cache.emplace(file, input::read_csv(figure.dir / file)).first;
   const auto x = read_values(found->second, series, "x", figure.x);
   const auto y = read_values(found->second, series, "y", figure.y);
   Curve curve;

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string_view>
 
-namespace grainlaw::element {
+namespace grainlaw::input {
 
 int Csv::find(const std::string& name) const {
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -36,10 +36,10 @@ std::vector<std::string_view> split(std::string_view line) {
 }  // namespace
 
 Csv read_csv(const std::filesystem::path& file) {
-  auto text = std::make_shared<input::Source>(input::Source{file.string(), {}});
+  auto text = std::make_shared<Source>(Source{file.string(), {}});
   std::ifstream in(file);
-  const auto whole = [&] { return input::Mark{text, -1, -1}; };
-  if (!in) input::fail(whole(), "the file cannot be read", "check its permissions");
+  const auto whole = [&] { return Mark{text, -1, -1}; };
+  if (!in) fail(whole(), "the file cannot be read", "check its permissions");
   for (std::string line; std::getline(in, line);) {
     if (line.ends_with('\r')) line.pop_back();
     if (text->lines.empty() && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
@@ -48,9 +48,7 @@ Csv read_csv(const std::filesystem::path& file) {
   Csv csv;
   for (std::size_t number = 0; number < text->lines.size(); ++number) {
     const std::string& line = text->lines[number];
-    const auto place = [&](std::string_view cell) {
-      return input::Mark{text, int(number), int(cell.data() - line.data())};
-    };
+    const auto place = [&](std::string_view cell) { return Mark{text, int(number), int(cell.data() - line.data())}; };
     if (line.empty() || line[0] == '#') continue;
     const auto cells = split(line);
     if (csv.names.empty()) {
@@ -60,8 +58,8 @@ Csv read_csv(const std::filesystem::path& file) {
       continue;
     }
     if (cells.size() != csv.names.size()) {
-      input::fail(place(line), fmt::format("{} values under {} column names", cells.size(), csv.names.size()),
-                  "every row needs one value per column, separated by commas");
+      fail(place(line), fmt::format("{} values under {} column names", cells.size(), csv.names.size()),
+           "every row needs one value per column, separated by commas");
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       double value = 0;
@@ -72,21 +70,21 @@ Csv read_csv(const std::filesystem::path& file) {
       csv.columns[i].push_back(number_typed ? value : std::nan(""));
     }
   }
-  if (csv.names.empty()) input::fail(whole(), "there is no header line", "name the columns in the first line");
-  if (csv.columns[0].empty()) input::fail(whole(), "there is no row of numbers", "the header line stands alone");
+  if (csv.names.empty()) fail(whole(), "there is no header line", "name the columns in the first line");
+  if (csv.columns[0].empty()) fail(whole(), "there is no row of numbers", "the header line stands alone");
   return csv;
 }
 
-int Csv::numbers(const std::string& name, const input::Mark& asked_at) const {
+int Csv::numbers(const std::string& name, const Mark& asked_at) const {
   const int found = find(name);
   if (found < 0) {
-    input::fail(asked_at, fmt::format("the data file has no column '{}'", name), input::did_you_mean(name, names));
+    fail(asked_at, fmt::format("the data file has no column '{}'", name), did_you_mean(name, names));
   }
   if (const auto& wrong = no_number[std::size_t(found)]) {
-    input::fail(*wrong, fmt::format("this is not a number, but column '{}' is compared", name),
-                "leave rows without a value out of the file");
+    fail(*wrong, fmt::format("this is not a number, but column '{}' is compared", name),
+         "leave rows without a value out of the file");
   }
   return found;
 }
 
-}  // namespace grainlaw::element
+}  // namespace grainlaw::input
