@@ -153,8 +153,8 @@ std::string figures(const Part& part, std::size_t& counter) {
 }
 
 std::string comparisons(const Json& summary) {
-  Table table(
-      {"run", "quantity", "compared with", "points", "rms difference", "of largest", "class", "counts as", "note"});
+  Table table({"run", "quantity", "against", "compared with", "points", "rms difference", "of largest", "class",
+               "counts as", "note"});
   for (const Json& entry : list(summary, "compare")) {
     Cell share;
     if (const auto of = entry.find("rms_of_largest"); of != entry.end() && of->is_number()) {
